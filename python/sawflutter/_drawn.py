@@ -56,14 +56,6 @@ class Drawn:
         harmonics : iterable of float, optional
             Multiples of the rotation speed that are drawn as lines over the frequencies, in
             addition to those of the scene's ``excitation``.
-
-        Examples
-        --------
-        >>> import sawflutter as sf
-        >>> r = sf.Scene.paper().run_campbell(accuracy="draft")
-        >>> figure = r.plot(speed_units="rad/s", harmonics=[1, 2])
-        >>> figure.layout.xaxis2.title.text
-        'rotation speed Ω [rad/s]'
         """
         from .plot import with_plotly
         from .plot.look import looking

@@ -15,13 +15,7 @@ if TYPE_CHECKING:
 
 @contextmanager
 def extra(name: str) -> Iterator[None]:
-    """Imports in its block say how a missing package is installed.
-
-    >>> with extra("plot"):
-    ...     import no_such_package
-    Traceback (most recent call last):
-    ImportError: this needs no_such_package: pip install "sawflutter[plot]"
-    """
+    """Imports in its block say how a missing package is installed."""
     try:
         yield
     except ModuleNotFoundError as error:

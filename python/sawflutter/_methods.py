@@ -37,13 +37,6 @@ class RestModeMethods(Entry):
         -------
         ndarray of float, of the broadcast shape
             NaN off the blade.
-
-        Examples
-        --------
-        >>> import sawflutter as sf
-        >>> mode = sf.Scene.paper().run_campbell(accuracy="draft").modes_at_rest[0]
-        >>> abs(float(mode.shape(0.355, 0.0))) <= 1.0
-        True
         """
         radius, theta = points(numbers("radius_m", radius_m), np.radians(numbers("angle_deg", angle_deg)))
         total = np.zeros(radius.shape)

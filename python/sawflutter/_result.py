@@ -54,13 +54,6 @@ class Report(Drawn):
         a response for each speed, with a column for the amplitude at the probe in m of each line; a
         slow sweep for each stable equilibrium, without its frequencies; guides with a gap for each
         ``gap_factor`` and ``force_n``, with the deflections at the cut.
-
-        Examples
-        --------
-        >>> import sawflutter as sf
-        >>> check = sf.Scene.paper().check(operating_rpm=1400, accuracy="draft")
-        >>> bool(check.to_dataframe()["passed"].all())
-        False
         """
         return self._rows()
 
@@ -83,6 +76,7 @@ class Result(Report, Entry):
     # The command of the program that reports it, and the name of its steps for the progress bar.
     _command: ClassVar[str] = ""
     _steps: ClassVar[str] = "speeds"
+    _scene: dict[str, Any]
 
     def __init_subclass__(cls) -> None:
         super().__init_subclass__()
@@ -104,7 +98,7 @@ class Result(Report, Entry):
                 f"this is no report of {cls._command!r} that this version reads, but {written} "
                 f"({error}); sawflutter.load reads a report of any kind"
             ) from error
-        object.__setattr__(result, "_text", text)
+        vars(result).update(_text=text, _scene=data["scene"])
         result._read()
         return result
 
@@ -125,7 +119,7 @@ class Result(Report, Entry):
         """The scene of the computation; for a fit or a placement, the resulting scene."""
         from .scene import Scene
 
-        return Scene.from_json(json.dumps(self.to_dict()["scene"]))
+        return Scene(self._scene)
 
     def summary(self, *, details: bool = False) -> str:
         """The report as text, as printed by the program, with ``details`` as by --details:
@@ -182,14 +176,14 @@ class Result(Report, Entry):
         from .plot.described import described
 
         chart = described(self._command, name, self._text)
-        return Chart(self.to_dict()["scene"]["name"], otherwise) if chart is None else chart
+        return Chart(self._scene["name"], otherwise) if chart is None else chart
 
     def __reduce__(self) -> tuple[Any, ...]:
         return type(self)._from_json, (self._text,)
 
     def __repr__(self) -> str:
         warned = "".join(f"WARNING: {warning}; " for warning in self._warnings())
-        return f"<{type(self).__name__} {self.to_dict()['scene']['name']!r}: {warned}{self._facts()}>"
+        return f"<{type(self).__name__} {self._scene['name']!r}: {warned}{self._facts()}>"
 
     def _chart(self) -> Chart:
         return self._described(self.figure_names[0].partition(".")[0], self._facts())

@@ -83,4 +83,4 @@ def compare(
 
 
 def _name(saw: Scene | CampbellResults) -> str:
-    return str(saw.to_dict()["scene"]["name"]) if isinstance(saw, Result) else saw.name
+    return str(saw._scene["name"]) if isinstance(saw, Result) else saw.name

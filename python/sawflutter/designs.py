@@ -97,9 +97,9 @@ class StiffnessMap(Drawn, Entry):
     flutter_rpm: FloatArray
 
     def _chart(self) -> Chart:
-        from .plot.derived import stiffness
+        from .plot.described import read
 
-        return stiffness(self)
+        return read(_native.stiffness_chart(self))
 
 
 @dataclass(frozen=True, eq=False, repr=False)

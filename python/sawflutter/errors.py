@@ -65,11 +65,7 @@ class ArgumentError(InputError):
 
 
 def refused(key: str, value: object, allowed: str, remedy: str) -> ArgumentError:
-    """The error of an argument.
-
-    >>> refused("speeds", 0, "at least 1", "20 is usual")
-    ArgumentError('speeds must be at least 1 (you gave 0); 20 is usual')
-    """
+    """The error of an argument."""
     given = "" if value is None else f" (you gave {value!r})"
     message = f"{key} must be {allowed}{given}; {remedy}"
     return ArgumentError(message, key, str(value), allowed, remedy)

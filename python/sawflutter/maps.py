@@ -65,7 +65,7 @@ class MapResults(Result, MapReport):
             axis.path: (axis.path, axis.values, {"units": axis.unit, "long_name": axis.name})
             for axis in axes
         }
-        attributes = {"scene": self.scene["name"], "to_rpm": self.to_rpm}
+        attributes = {"scene": self._scene["name"], "to_rpm": self.to_rpm}
         if self.rpm is not None:
             attributes["rpm"] = self.rpm
         return xr.Dataset(variables, coordinates, attributes)

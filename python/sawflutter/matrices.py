@@ -96,22 +96,8 @@ class Matrices(Entry):
         return np.frombuffer(found, "<f8").reshape(*radius.shape, len(self.stiffness))
 
     def companion(self, rpm: Number) -> FloatArray:
-        """Matrix A of x' = A x with x = (q, q') at a speed; its eigenvalues are those of the saw,
-        in 1/s. It has twice as many rows as there are functions.
-
-        Parameters
-        ----------
-        rpm : float
-            Rotation speed, of any size.
-
-        Examples
-        --------
-        >>> import numpy as np
-        >>> import sawflutter as sf
-        >>> eigenvalues = np.linalg.eigvals(sf.Scene.paper().matrices(basis=(8, 5)).companion(0.0))
-        >>> round(float(np.sort(abs(eigenvalues.imag))[0] / (2 * np.pi)), 1)
-        7.8
-        """
+        """Matrix A of x' = A x with x = (q, q') at any speed; its eigenvalues are those of the saw,
+        in 1/s. It has twice as many rows as there are functions."""
         speed = float(numbers("rpm", number("rpm", rpm))) * np.pi / 30.0
         size = len(self.stiffness)
         velocity = 2.0 * speed * self.gyroscopic
@@ -158,25 +144,8 @@ class Matrices(Entry):
     def response(
         self, rpm: Number, frequency_hz: npt.ArrayLike, *, inputs: npt.ArrayLike, outputs: npt.ArrayLike
     ) -> ComplexArray:
-        """Deflections in m at points for forces of one newton at others, at a speed and at
-        frequencies: their size and phase.
-
-        Parameters
-        ----------
-        rpm, inputs, outputs
-            As in :meth:`state_space`.
-        frequency_hz : array_like
-            Frequencies in space. The result has their shape, with outputs and inputs as its last
-            axes.
-
-        Examples
-        --------
-        >>> import sawflutter as sf
-        >>> m = sf.Scene.paper().matrices(basis=(12, 6))
-        >>> rim = [(0.355, 90)]
-        >>> print(f"{1e6 * abs(m.response(0, 0.0, inputs=rim, outputs=rim)[0, 0]):.0f} µm")
-        290 µm
-        """
+        """Deflections in m at points for forces of one newton at others, at frequencies:
+        :meth:`StateSpace.response` of :meth:`state_space`."""
         return self.state_space(rpm, inputs=inputs, outputs=outputs).response(frequency_hz)
 
     def run_time_response(
@@ -189,29 +158,8 @@ class Matrices(Entry):
         outputs: npt.ArrayLike,
         to_hz: Number | None = None,
     ) -> FloatArray:
-        """Deflections in m at points over time, from rest, under forces at others that are linear
-        between the times; needs SciPy.
-
-        Parameters
-        ----------
-        rpm, inputs, outputs, to_hz
-            As in :meth:`state_space`.
-        forces_n : array_like
-            Forces at each time, of the shape (times, inputs).
-        times_s : array_like
-            Ascending times at even steps.
-
-        Examples
-        --------
-        >>> import numpy as np
-        >>> import sawflutter as sf
-        >>> saw = sf.Scene.paper().replace({"damping.air_n_s_per_m3": 200.0})
-        >>> times, rim = np.linspace(0, 1, 501), [(0.355, 90)]
-        >>> force = np.ones((501, 1))
-        >>> m = saw.matrices(basis=(6, 4))
-        >>> m.run_time_response(500, force, times, inputs=rim, outputs=rim, to_hz=50).shape
-        (501, 1)
-        """
+        """Deflections in m at points over time: :meth:`StateSpace.time_response` of
+        :meth:`state_space`."""
         space = self.state_space(rpm, inputs=inputs, outputs=outputs, to_hz=to_hz)
         return space.time_response(forces_n, times_s)
 

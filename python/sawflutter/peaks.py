@@ -94,14 +94,6 @@ class Peaks(Entry):
             Largest difference between a peak and its computed frequency.
         speeds : int
             Largest number of rows, spread evenly. Their windows do not overlap by much.
-
-        Examples
-        --------
-        >>> import numpy as np
-        >>> import sawflutter as sf
-        >>> peaks = sf.Peaks._of([(0.0, 8.0, 1.0, np.nan, 0), (0.0, 26.0, 1.0, np.nan, 0)], 0.5, 4.0, "mm", "taps")
-        >>> peaks.rows(sf.Scene.paper().with_accuracy("draft"), lowest=3)
-        [(0.0, [8.0, nan, 26.0])]
         """
         limit = number("within_hz", within_hz)
         if not 1 <= lowest <= _MOST_FREQUENCIES:
@@ -128,29 +120,15 @@ class Peaks(Entry):
         return rows
 
     def to_csv(self, path: str | os.PathLike[str], rows: Sequence[tuple[float, Sequence[float]]]) -> None:
-        """Writes rows as a table for ``sawflutter fit``, with blanks for NaN.
-
-        Parameters
-        ----------
-        path : str or path
-            The file.
-        rows : list of (float, list of float)
-            The result of :meth:`rows`, or several such lists in one.
-        """
+        """Writes the result of :meth:`rows`, or several such lists in one, as a table for ``sawflutter
+        fit``, with blanks for NaN."""
         most = max((len(hz) for _, hz in rows), default=0)
         names = ",".join(["rpm", *(f"f{place}" for place in range(1, most + 1))])
         text = f"{names}\n{lines(rows)}"
         Path(path).write_text(text, encoding="utf-8", newline="\n")
 
     def to_dataframe(self) -> pd.DataFrame:
-        """The peaks as a table; needs pandas.
-
-        Examples
-        --------
-        >>> import sawflutter as sf
-        >>> list(sf.Peaks._of([], 0.5, 4.0, "mm", "taps").to_dataframe())
-        ['rpm', 'frequency_hz', 'amplitude', 'order']
-        """
+        """The peaks as a table; needs pandas."""
         names = ("rpm", "frequency_hz", "amplitude", "order")
         return frame({name: getattr(self, name) for name in names})
 

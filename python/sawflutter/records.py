@@ -77,22 +77,12 @@ class Record(Entry):
 
     @classmethod
     def of_run_up(cls, up: RunUpResults) -> Record:
-        """The computed record of a run-up, to compare it with a measured one.
-
-        Parameters
-        ----------
-        up : RunUpResults
-            The run-up.
-
-        Returns
-        -------
-        Record
-            The deflection at the probe in m.
-        """
+        """The computed record of a run-up, the deflection at the probe in m, to compare it with a
+        measured one."""
         # The last step of a run-up may be shorter than the others.
         rpm, samples = up.rpm[:-1], up.deflection_m[:-1]
         rate = up.rate_rpm_per_s * (len(rpm) - 1) / (rpm[-1] - rpm[0])
-        name = f"run-up of {up.scene['name']}"
+        name = f"run-up of {up._scene['name']}"
         return cls(samples, rate, rpm, unit="m", name=name)
 
     @property
@@ -101,13 +91,8 @@ class Record(Entry):
         return array(np.arange(len(self.samples)) / self.rate_hz)
 
     def between(self, from_s: Number, to_s: Number) -> Record:
-        """Part of the record, such as its run-up, or the time after one of several taps.
-
-        Parameters
-        ----------
-        from_s, to_s : float
-            Begin and end.
-        """
+        """Part of the record from a time to another, such as its run-up, or that after one of several
+        taps."""
         begin, end = number("from_s", from_s), number("to_s", to_s)
         within = np.flatnonzero((self.time_s >= begin) & (self.time_s <= end))
         if len(within) < 2:

@@ -49,20 +49,24 @@ class CampbellResults(Result, CampbellReport):
     def _content(self, ending: str) -> str:
         return _native.campbell_csv(self._text) if ending == ".csv" else super()._content(ending)
 
-    def save_vtk(self, folder: str | os.PathLike[str]) -> None:
-        """Writes the shapes for ParaView, as the program does: ``modes.pvd``, which lists a grid
-        for each phase of a period.
+    def save(self, path: str | os.PathLike[str]) -> None:
+        """Writes a file, the same bytes as the program, by the ending of its name.
 
         Parameters
         ----------
-        folder : str or path
-            An existing folder.
+        path : str or path
+            .html, .csv and others as of :meth:`Result.save`; .pvd lists the grids for ParaView that
+            are written beside it, one for each phase of a period of every shape.
         """
+        place = Path(path)
+        if place.suffix.lower() != ".pvd":
+            return super().save(path)
         files = _native.vtk_files(self._text)
         if not files:
             raise ValueError("the chart has no shapes; run_campbell(shapes=True) computes them")
         for name, text in files:
-            (Path(folder) / name).write_text(text, encoding="utf-8", newline="\n")
+            file = place if name.endswith(".pvd") else place.with_name(name)
+            file.write_text(text, encoding="utf-8", newline="\n")
 
     def to_xarray(self) -> xr.Dataset:
         """Branches over the speed as labelled arrays; needs xarray.
@@ -90,7 +94,7 @@ class CampbellResults(Result, CampbellReport):
             "rpm": ("rpm", rpm, {"units": "rpm"}),
             "name": ("branch", [branch.name for branch in branches]),
         }
-        return xr.Dataset(variables, coordinates, {"scene": self.scene["name"]})
+        return xr.Dataset(variables, coordinates, {"scene": self._scene["name"]})
 
     def to_dataframe(self, of: Table = "branches") -> pd.DataFrame:
         """Part of the results as a table; needs pandas.

@@ -23,10 +23,10 @@ from ._result import R
 from ._scene_types import (
     Accuracy, BladeDict, ContactLaw, CutDict, GuideDict, GuideShape, GuideSide, MountDict, NumberPath, SceneDict,
 )  # fmt: skip
-from ._values import Number, number, numbers, optional, to_json, whole
+from ._values import Number, number, numbers, optional, whole
 from .checks import CheckResults
 from .designs import FitResults, PlaceResults, Speeds, StiffnessMap, TradeoffResults
-from .errors import ArgumentError, PathError, refused, warned
+from .errors import refused, warned
 from .matrices import Matrices
 from .modes import Modes
 from .motions import CutResults, DeflectResults, GapResults, ResponseResults, RunUpResults, WashboardResults
@@ -100,7 +100,7 @@ class Scene(Drawn, Mapping[str, Value]):
                 f"a scene is made of a dict, not of {data!r}: Scene.load reads a file, and "
                 "Scene.from_json a text"
             )
-        self._setup(_native.scene(to_json(data)))
+        self._setup(_native.scene(data))
 
     def _setup(self, text: str) -> None:
         object.__setattr__(self, "_text", text)
@@ -176,8 +176,6 @@ class Scene(Drawn, Mapping[str, Value]):
     def __getitem__(self, path: str) -> Value: ...
     def __getitem__(self, path: str) -> Any:
         """The value at a path, for instance ``saw["guides[0].radius_m"]``."""
-        if not isinstance(path, str):
-            raise PathError(f"{path!r} is no path of a scene; write it like guides[0].radius_m", str(path))
         return json.loads(_native.value(self._text, path), object_hook=Block)
 
     def __iter__(self) -> Iterator[str]:
@@ -202,17 +200,7 @@ class Scene(Drawn, Mapping[str, Value]):
         >>> round(free.run_campbell().lowest_critical_rpm)
         1477
         """
-        if not isinstance(changes, Mapping):
-            said = 'values by their paths, like {"blade.thickness_m": "2.6 mm"}'
-            raise refused("changes", changes, said, "give a dict")
-        given = {path: json.loads(to_json(value, path)) for path, value in changes.items() if self._is_path(path)}
-        return self._of(_native.replace(self._text, json.dumps(given)))
-
-    @staticmethod
-    def _is_path(path: object) -> bool:
-        if isinstance(path, str):
-            return True
-        raise PathError(f"{path!r} is no path of a scene; write it like guides[0].radius_m", str(path))
+        return self._of(_native.replace(self._text, changes))
 
     def add_guide(
         self,
@@ -232,12 +220,6 @@ class Scene(Drawn, Mapping[str, Value]):
     ) -> Self:
         """Returns the scene with one more guide at the end of :attr:`guides`. The arguments are the
         keys of a guide in a scene file; those that are not given are copied from the last guide.
-
-        Examples
-        --------
-        >>> import sawflutter as sf
-        >>> len(sf.Scene.paper().add_guide(angle_deg=120.0).guides)
-        2
         """
         given = {key: value for key, value in locals().items() if key != "self" and value is not None}
         last: Mapping[str, Any] = self.guides[-1] if self.guides else {}
@@ -261,11 +243,9 @@ class Scene(Drawn, Mapping[str, Value]):
         return self if tolerance is None else self.replace({"tolerance": tolerance})
 
     def _chart(self) -> Chart:
-        """The saw in axial view: blade, guides, cut, probe, and the positive directions of rotation
-        and angles."""
-        from .plot.saw import saw
+        from .plot.described import read
 
-        return saw(self)
+        return read(_native.saw_chart(self._text))
 
     @overload
     def animate(self, mode: Mode, *, backend: Literal["plotly"] = "plotly", frames: int = 48) -> Figure: ...
@@ -284,13 +264,6 @@ class Scene(Drawn, Mapping[str, Value]):
             A plotly Figure with frames and a button, or a matplotlib FuncAnimation.
         frames : int
             Number of frames in a period.
-
-        Examples
-        --------
-        >>> import sawflutter as sf
-        >>> saw = sf.Scene.paper().with_accuracy("draft")
-        >>> len(saw.animate(saw.modes(1800)[0], frames=12).frames)
-        12
         """
         from .plot.motion import animate
 
@@ -305,6 +278,7 @@ class Scene(Drawn, Mapping[str, Value]):
         sensitivity: bool = False,
         amplitude: bool = False,
         shapes: bool | Numbers = False,
+        in_cut_rpm: Number | None = None,
         progress: Progress = None,
     ) -> CampbellResults:
         """Computes modes, critical speeds, bands of instability and certificate. If this takes
@@ -328,6 +302,8 @@ class Scene(Drawn, Mapping[str, Value]):
         shapes : bool or array_like
             Whether to compute the shape of the blade at every critical speed, in every band and at
             the operating speed; speeds in rpm are added to these.
+        in_cut_rpm : float, optional
+            Speed of the cut under whose forces the saw is charted, as ``cut.chart_rpm`` of the scene.
         progress : bool or callable, optional
             True shows a bar. A callable is called with the finished and the total number of items
             in each phase of the computation.
@@ -347,6 +323,8 @@ class Scene(Drawn, Mapping[str, Value]):
             if speeds.size < 2:
                 raise refused("speed_range", speed_range, "a first and a last speed in rpm", "write it like (0, 3000)")
             scene = self.replace({"sweep.from_rpm": speeds.min(), "sweep.to_rpm": speeds.max()})
+        if in_cut_rpm is not None:
+            scene = scene.replace({"cut.chart_rpm": in_cut_rpm})
         is_flag = isinstance(shapes, (bool, np.bool_))
         asked = [] if is_flag else np.ravel(numbers("shapes", shapes)).tolist()
         return scene._asked(
@@ -356,14 +334,14 @@ class Scene(Drawn, Mapping[str, Value]):
 
     def speeds(self, beside: Scene | None = None) -> Speeds:
         """Critical speeds, flutter speed and bands, without branches and shapes: a cheap call for
-        many similar saws, as of a study. The basis is that of the saw ``beside``, or a larger one
-        where its own accuracy needs it, and is kept between calls with the same saw.
+        many similar saws, as of a study.
 
         Parameters
         ----------
         beside : Scene, optional
-            A similar saw, the same for all calls, which also gives the last speed; by default the
-            saw itself.
+            A similar saw, the same for all calls, which gives the last speed and the basis, or a
+            larger one where the accuracy needs it. Its basis is kept between calls. By default the
+            saw has a basis of its own.
 
         Examples
         --------
@@ -376,8 +354,8 @@ class Scene(Drawn, Mapping[str, Value]):
         1530.0
         1580.0
         """
-        nominal = self if beside is None else _scene("beside", beside)
-        found, to_rpm = _native.speeds(self._text, nominal._text)
+        nominal = None if beside is None else _scene("beside", beside)._text
+        found, to_rpm = _native.speeds(self._text, nominal)
         warned(_native.unusual_numbers(self._text))
         return Speeds._of(self.name, json.loads(found), to_rpm)
 
@@ -422,14 +400,15 @@ class Scene(Drawn, Mapping[str, Value]):
         speeds = np.asarray(number("rpm", rpm) if np.ndim(cast(Any, rpm)) == 0 else numbers("rpm", rpm))
         options = {
             "at_rpm": speeds.ravel().tolist(),
-            "to_hz": optional("to_hz", to_hz),
+            "to_hz": to_hz,
             "n_modes": None if n_modes is None else whole("n_modes", n_modes),
         }
         with reporting(progress, "speeds") as told:
-            found = json.loads(_native.run("modes", self._text, options, told))
+            found = json.loads(_native.run("modes", self._text, options, told)[0])
         warned(_native.unusual_numbers(self._text))
         return Modes._of(speeds, found)
 
+    # Generated by tools/generate_types.py from the library's table of arguments; not to be edited.
     def check(
         self,
         *,
@@ -443,8 +422,8 @@ class Scene(Drawn, Mapping[str, Value]):
         accuracy: Accuracy | None = None,
         tolerance: Number | None = None,
     ) -> CheckResults:
-        """Checks the saw against limits. The result is true in a boolean context if every limit is
-        kept: ``assert saw.check(...)``.
+        """Checks the saw against limits. The result is true in a boolean context if every limit is kept:
+        assert saw.check(...).
 
         Parameters
         ----------
@@ -452,15 +431,16 @@ class Scene(Drawn, Mapping[str, Value]):
             Operating speed; by default that of the scene.
         margin : float
             Largest allowed ratio of operating speed to first critical speed.
-        min_flutter_rpm, min_critical_rpm : float, optional
-            Lowest allowed flutter speed and first critical speed.
+        min_flutter_rpm : float, optional
+            Lowest allowed flutter speed.
+        min_critical_rpm : float, optional
+            Lowest allowed first critical speed.
         max_rim_m_per_s : float
-            Largest allowed rim speed.
+            Largest allowed speed of the rim.
         max_amplitude_m : float, optional
-            Largest allowed amplitude of flutter in any band up to the operating speed, without
-            damping.
+            Largest allowed amplitude of flutter in any band up to the operating speed, without damping.
         accept_unusual : bool
-            Whether a saw with implausible numbers may pass.
+            Let a saw with implausible numbers pass.
         accuracy, tolerance
             As in :meth:`run_campbell`.
 
@@ -473,13 +453,9 @@ class Scene(Drawn, Mapping[str, Value]):
         >>> saw.check(operating_rpm=1400, accuracy="draft").failures
         ('85 % rule',)
         """
-        return self._asked(
-            CheckResults, accuracy, tolerance, None, operating_rpm=optional("operating_rpm", operating_rpm),
-            margin=number("margin", margin), min_flutter_rpm=optional("min_flutter_rpm", min_flutter_rpm),
-            min_critical_rpm=optional("min_critical_rpm", min_critical_rpm),
-            max_rim_m_per_s=number("max_rim_m_per_s", max_rim_m_per_s),
-            max_amplitude_m=optional("max_amplitude_m", max_amplitude_m), accept_unusual=accept_unusual,
-        )  # fmt: skip
+        return self._asked(CheckResults, accuracy, tolerance, None, operating_rpm=operating_rpm,
+            margin=margin, min_flutter_rpm=min_flutter_rpm, min_critical_rpm=min_critical_rpm,
+            max_rim_m_per_s=max_rim_m_per_s, max_amplitude_m=max_amplitude_m, accept_unusual=accept_unusual)
 
     def run_cut(
         self,
@@ -492,30 +468,25 @@ class Scene(Drawn, Mapping[str, Value]):
         tolerance: Number | None = None,
         progress: Progress = None,
     ) -> CutResults:
-        """Computes eigenvalues and a time history under the cutting forces of the scene's ``cut``.
-        If the scene has no ``cut`` but the call a power or a depth, typical numbers are assumed
-        for the others, and a :class:`ModelWarning` names them.
+        """Computes eigenvalues and a time history under the cutting forces of cut in the scene. If the
+        scene has no cut but the call a power or a depth, typical numbers are assumed for the others, and a
+        ModelWarning names them.
 
         Parameters
         ----------
         rpm : float or array_like, optional
-            Speeds of the cut, instead of those of the scene.
-        power_w, depth_m : float, optional
-            Power and depth of the cut, in place of the scene's ``cut.power_w``, ``cut.depth_m``.
+            Speed of the cut, or several, in place of those of the scene.
+        power_w : float, optional
+            Power of the cut.
+        depth_m : float, optional
+            Depth of cut.
         stretching : bool, optional
-            Whether the blade stretches where it bends, in place of the scene's ``cut.stretching``.
+            Let the blade stretch where it bends by more than a part of its thickness.
         accuracy, tolerance, progress
             As in :meth:`run_campbell`.
-
-        Examples
-        --------
-        >>> import sawflutter as sf
-        >>> sf.Scene.paper().run_cut([1800, 2800], accuracy="draft").runs[1].verdict
-        'unstable'
         """
-        scene = self._with_block("cut", {"cut.power_w": power_w, "cut.depth_m": depth_m}, stretching)
-        speeds = np.atleast_1d(numbers("rpm", rpm)).tolist()
-        return scene._asked(CutResults, accuracy, tolerance, progress, rpm=speeds)
+        return self._asked(CutResults, accuracy, tolerance, progress, rpm=np.atleast_1d(numbers("rpm",
+            rpm)), power_w=power_w, depth_m=depth_m, stretching=stretching)
 
     def run_up(
         self,
@@ -528,18 +499,20 @@ class Scene(Drawn, Mapping[str, Value]):
         tolerance: Number | None = None,
         progress: Progress = None,
     ) -> RunUpResults:
-        """Computes a run-up under the side force, from the scene's ``runup`` and ``side_force``. If
-        the scene has no ``runup`` but the call one of its numbers, typical numbers are assumed for
-        the others, and a :class:`ModelWarning` names them.
+        """Computes a run-up under the side force, from runup and side_force of the scene. If the scene has
+        no runup but the call one of its numbers, typical numbers are assumed for the others, and a
+        ModelWarning names them.
 
         Parameters
         ----------
-        to_rpm, duration_s, force_n : float, optional
-            Last speed, time it takes and constant side force, in place of the scene's
-            ``runup.to_rpm``, ``runup.duration_s`` and ``side_force.force_n``.
+        to_rpm : float, optional
+            Last speed.
+        duration_s : float, optional
+            Time that the run-up takes.
+        force_n : float, optional
+            Constant side force, in place of side_force.force_n of the scene; 1 N in a scene without one.
         stretching : bool, optional
-            Whether the blade stretches where it bends, in place of the scene's
-            ``runup.stretching``.
+            Let the blade stretch where it bends by more than a part of its thickness.
         accuracy, tolerance, progress
             As in :meth:`run_campbell`.
 
@@ -550,8 +523,8 @@ class Scene(Drawn, Mapping[str, Value]):
         >>> round(up.rpm[-1]), up.rpm.shape == up.deflection_m.shape
         (500, True)
         """
-        given = {"runup.to_rpm": to_rpm, "runup.duration_s": duration_s, "side_force.force_n": force_n}
-        return self._with_block("runup", given, stretching)._asked(RunUpResults, accuracy, tolerance, progress)
+        return self._asked(RunUpResults, accuracy, tolerance, progress, to_rpm=to_rpm,
+            duration_s=duration_s, force_n=force_n, stretching=stretching)
 
     def run_deflect(
         self,
@@ -567,16 +540,17 @@ class Scene(Drawn, Mapping[str, Value]):
 
         Parameters
         ----------
-        force_n, angle_deg : float, optional
-            Constant lateral force, fixed in space, and its angle, in place of the scene's
-            ``side_force``; 1 N in a scene without one.
+        force_n : float, optional
+            Constant side force, in place of side_force.force_n of the scene; 1 N in a scene without one.
+        angle_deg : float, optional
+            Angle of the side force, in place of that of the scene.
         to_rpm : float, optional
             Last speed; by default the end of the scene's sweep.
         accuracy, tolerance, progress
             As in :meth:`run_campbell`.
         """
-        scene = self._with({"side_force.force_n": force_n, "side_force.angle_deg": angle_deg})
-        return scene._asked(DeflectResults, accuracy, tolerance, progress, to_rpm=optional("to_rpm", to_rpm))
+        return self._asked(DeflectResults, accuracy, tolerance, progress, force_n=force_n,
+            angle_deg=angle_deg, to_rpm=to_rpm)
 
     def run_response(
         self,
@@ -587,22 +561,21 @@ class Scene(Drawn, Mapping[str, Value]):
         tolerance: Number | None = None,
         progress: Progress = None,
     ) -> ResponseResults:
-        """Computes the steady state over the speed for the excitation of the blocks ``side_force``
-        and ``response`` of the scene, or for a side force of 1 N. For the response between points
-        of one's own at one speed see :meth:`Matrices.response`.
+        """Computes the steady state over the speed for the excitation of the blocks side_force and response
+        of the scene, or for a side force of 1 N. For the response between points of one's own at one speed
+        see Matrices.response.
 
         Parameters
         ----------
         rpm : float, optional
-            Speed of the frequency response from the side force to the probe, within the sweep; the
-            operating speed by default.
+            Speed of the frequency response from the side force to the probe, within the sweep; by default
+            the operating speed.
         to_hz : float, optional
             Largest frequency of that; by default that up to which the diagram is complete.
         accuracy, tolerance, progress
             As in :meth:`run_campbell`.
         """
-        options = {"rpm": optional("rpm", rpm), "to_hz": optional("to_hz", to_hz)}
-        return self._asked(ResponseResults, accuracy, tolerance, progress, **options)
+        return self._asked(ResponseResults, accuracy, tolerance, progress, rpm=rpm, to_hz=to_hz)
 
     def run_gap(
         self,
@@ -611,56 +584,40 @@ class Scene(Drawn, Mapping[str, Value]):
         rpm: Number | None = None,
         max_deviation_m: Number | None = None,
         oscillating_force_n: Number | None = None,
-        oscillating_order: int | None = None,
+        oscillating_order: Number | None = None,
         friction: Number | None = None,
         accuracy: Accuracy | None = None,
         tolerance: Number | None = None,
         progress: Progress = None,
     ) -> GapResults:
-        """Evaluates guides with a gap: the chart over the amplitude at them, and the deflection at
-        the cut over the gap.
+        """Evaluates guides with a gap: the chart over the amplitude at them, and the deflection at the cut
+        over the gap.
 
         Parameters
         ----------
         force_n : float, optional
-            Constant side force, in place of the scene's ``side_force.force_n``; 1 N in a scene
-            without one.
+            Constant side force, in place of side_force.force_n of the scene; 1 N in a scene without one.
         rpm : float, optional
-            Speed of the map over gap and force; the operating speed by default, or half of the
-            first critical speed.
+            Speed of the map over gap and force; by default the operating speed, or half of the first
+            critical speed.
         max_deviation_m : float, optional
             Largest deflection at the cut that is allowed.
         oscillating_force_n : float, optional
-            Amplitude of a side force that oscillates, in place of the scene's
-            ``side_force.oscillating_n``. With it, or with ``runout_m``, ``flatness_m`` or
-            ``imbalance_kg_m2`` in the scene's ``response``, the oscillation of the blade about its
-            deflection is computed.
-        oscillating_order : int, optional
-            Ratio of the frequency of this force to that of rotation, in place of the scene's
-            ``side_force.order``; 1 in a scene without one.
+            Amplitude of a side force that oscillates, in place of side_force.oscillating_n of the scene:
+            the oscillation of the blade about its deflection is computed. Run-out, flatness and imbalance
+            of response in the scene make it oscillate, too.
+        oscillating_order : float, optional
+            Ratio of the frequency of this force to that of rotation, in place of side_force.order of the
+            scene; by default 1.
         friction : float, optional
-            Coefficient of friction of the pads in place of the scene's ``friction.coefficient``. With
-            friction the heat of the pads is computed, and the deflection of the blade that it heats.
+            Coefficient of friction of the pads, in place of friction.coefficient of the scene: the heat of
+            the pads is computed, and the deflection of the blade that it heats.
         accuracy, tolerance, progress
             As in :meth:`run_campbell`.
-
-        Examples
-        --------
-        >>> import sawflutter as sf
-        >>> pad = {"guides[0].contact": "one_sided", "guides[0].gap_m": 4e-5}
-        >>> saw = sf.Scene.paper().replace({**pad, "sweep.to_rpm": 1700, "operating_rpm": 1000})
-        >>> r = saw.run_gap(force_n=2.0, max_deviation_m=3e-4, accuracy="draft")
-        >>> bool(r.free.critical_rpm[0] < r.linear.critical_rpm[0])
-        True
         """
-        given = {
-            "side_force.force_n": force_n,
-            "side_force.oscillating_n": oscillating_force_n,
-            "side_force.order": oscillating_order,
-            "friction.coefficient": friction,
-        }
-        options = {"rpm": optional("rpm", rpm), "max_deviation_m": optional("max_deviation_m", max_deviation_m)}
-        return self._with(given)._asked(GapResults, accuracy, tolerance, progress, **options)
+        return self._asked(GapResults, accuracy, tolerance, progress, force_n=force_n, rpm=rpm,
+            max_deviation_m=max_deviation_m, oscillating_force_n=oscillating_force_n,
+            oscillating_order=oscillating_order, friction=friction)
 
     def run_washboard(
         self,
@@ -670,17 +627,16 @@ class Scene(Drawn, Mapping[str, Value]):
         tolerance: Number | None = None,
         progress: Progress = None,
     ) -> WashboardResults:
-        """Determines whether washboarding occurs under the cutting force of the scene's
-        ``cut.washboarding``.
+        """Determines whether washboarding occurs under the cutting force of cut.washboarding in the scene.
 
         Parameters
         ----------
         rpm : float, optional
-            Speed of the cut; by default the scene's operating speed.
+            Speed of the cut; by default the operating speed of the scene.
         accuracy, tolerance, progress
             As in :meth:`run_campbell`.
         """
-        return self._asked(WashboardResults, accuracy, tolerance, progress, rpm=optional("rpm", rpm))
+        return self._asked(WashboardResults, accuracy, tolerance, progress, rpm=rpm)
 
     def fit(
         self,
@@ -699,21 +655,20 @@ class Scene(Drawn, Mapping[str, Value]):
         Parameters
         ----------
         measured : path, DataFrame, array_like or rows, optional
-            A file with a table of speeds in rpm and frequencies in Hz, ascending, blank if a mode
-            was not measured; or the same table as rows ``(rpm, hz, hz, ...)`` or ``(rpm, [hz, hz,
-            ...])``, as an array, or as a data frame with a column or an index ``rpm``, with NaN
-            for a blank. A list of frequencies alone is measured at rest. By default the measured
-            frequencies of the scene.
+            Table of measured frequencies; by default that of the scene. A file with speeds in rpm and
+            frequencies in Hz, ascending, blank if a mode was not measured; or the same table as rows (rpm,
+            hz, hz, ...) or (rpm, [hz, hz, ...]), as an array, or as a data frame with a column or an index
+            rpm, with NaN for a blank. A list of frequencies alone is measured at rest.
         free : dict or list of str, optional
-            Paths of the numbers to fit, with their bounds ``(from, to)`` or None for the default
-            bounds. By default radius and stiffness of every guide, and the angles between several
-            guides.
+            Number to fit, or several, by its path in the scene, with or without bounds; by default radius
+            and stiffness of every guide, and the angles between several guides. A dict gives a path its
+            bounds (from, to), or None for the default ones.
         to_rpm : float, optional
-            Leaves out measurements above this speed.
+            Leave out measurements above this speed.
         confidence : float
             Confidence level of the intervals.
         starts : int
-            Number of starting points: the numbers of the scene, and others between the bounds.
+            Starting points: the numbers of the scene, and others between the bounds.
         accuracy, tolerance, progress
             As in :meth:`run_campbell`.
 
@@ -725,11 +680,8 @@ class Scene(Drawn, Mapping[str, Value]):
         >>> found.parameters[0].path
         'guides[0].stiffness_n_per_m'
         """
-        return self._asked(
-            FitResults, accuracy, tolerance, progress, measured=table(measured), free=_bounds(free),
-            to_rpm=optional("to_rpm", to_rpm), confidence=number("confidence", confidence),
-            starts=whole("starts", starts),
-        )  # fmt: skip
+        return self._asked(FitResults, accuracy, tolerance, progress, measured=table(measured), free=free,
+            to_rpm=to_rpm, confidence=confidence, starts=whole("starts", starts))
 
     def place(
         self,
@@ -756,11 +708,11 @@ class Scene(Drawn, Mapping[str, Value]):
         Parameters
         ----------
         free : dict or list of str, optional
-            Paths of the numbers to vary, with their bounds ``(from, to)`` or None for the default
-            bounds. By default radius, angle and stiffness of the first guide.
+            Number to vary, or several, by its path in the scene, with or without bounds; by default radius,
+            angle and stiffness of the first guide. A dict gives a path its bounds (from, to), or None for
+            the default ones.
         goal : {"flutter", "window"}
-            Quantity to maximize: the flutter speed, or the stable window around the operating
-            speed.
+            Quantity to maximize: the flutter speed, or the stable window around the operating speed.
         min_critical_rpm : float, optional
             Lowest allowed first critical speed.
         amplitude_m : float, optional
@@ -769,17 +721,22 @@ class Scene(Drawn, Mapping[str, Value]):
         max_deviation_m : float, optional
             Largest allowed deflection at the cut at the operating speed, with guides with a gap.
         force_n : float, optional
-            Constant side force for this limit, in place of the scene's ``side_force.force_n``;
-            1 N in a scene without one.
-        samples, refine, map : int
-            Number of saws in the first sampling of the bounds, of saws in each refinement, and of
-            points of the map along each axis (0 for no map).
-        radius_tolerance_m, angle_tolerance_deg : float
-            Manufacturing tolerance of radii and angles. A saw is rated by the worst of its
-            neighbours within the tolerances.
-        guide_tolerance_share, other_tolerance_share : float
-            Tolerance of the stiffness, damping or gap of a guide, and of other numbers, as a share of
-            the value.
+            Constant side force, in place of side_force.force_n of the scene; 1 N in a scene without one.
+        samples : int
+            Saws in the first sampling of the bounds.
+        refine : int
+            Steps of the refinement of each of the best places, each a saw and those around it.
+        map : int
+            Points of the map along each axis; 0 for no map.
+        radius_tolerance_m : float
+            Manufacturing tolerance of radii; a saw is rated by the worst of its neighbours within the
+            tolerances.
+        angle_tolerance_deg : float
+            Tolerance of angles.
+        guide_tolerance_share : float
+            Tolerance of the stiffness, damping or gap of a guide, as a share of it.
+        other_tolerance_share : float
+            Tolerance of other numbers, as a share of each.
         accuracy, tolerance, progress
             As in :meth:`run_campbell`.
 
@@ -792,14 +749,13 @@ class Scene(Drawn, Mapping[str, Value]):
         >>> [parameter.path for parameter in found.parameters]
         ['guides[0].radius_m']
         """
-        given = locals()
-        names = ("min_critical_rpm", "amplitude_m", "max_deviation_m")
-        tolerances = ("radius_tolerance_m", "angle_tolerance_deg", "guide_tolerance_share", "other_tolerance_share")
-        return self._with({"side_force.force_n": force_n})._asked(
-            PlaceResults, accuracy, tolerance, progress, free=_bounds(free), goal=goal,
-            **{name: optional(name, given[name]) for name in (*names, *tolerances)},
-            **{name: whole(name, given[name]) for name in ("samples", "refine", "map")},
-        )  # fmt: skip
+        return self._asked(PlaceResults, accuracy, tolerance, progress, free=free, goal=goal,
+            min_critical_rpm=min_critical_rpm, amplitude_m=amplitude_m, max_deviation_m=max_deviation_m,
+            force_n=force_n, samples=whole("samples", samples), refine=whole("refine", refine),
+            map=whole("map", map), radius_tolerance_m=radius_tolerance_m,
+            angle_tolerance_deg=angle_tolerance_deg, guide_tolerance_share=guide_tolerance_share,
+            other_tolerance_share=other_tolerance_share)
+    # End of what is generated.
 
     def run_map(
         self,
@@ -837,14 +793,6 @@ class Scene(Drawn, Mapping[str, Value]):
             As in :meth:`sawflutter.Study.run`.
         accuracy, tolerance, progress
             As in :meth:`run_campbell`.
-
-        Examples
-        --------
-        >>> import sawflutter as sf
-        >>> free = sf.Scene.paper().replace({"accuracy": "draft", "guides": []})
-        >>> found = free.run_map(("blade.thickness_m", "2.5 mm", "3 mm"), points=3)
-        >>> [round(1e3 * value, 3) for value in found.x.values.tolist()]
-        [2.5, 2.75, 3.0]
         """
         from .maps import MapResults, axis
         from .study import Study
@@ -871,16 +819,9 @@ class Scene(Drawn, Mapping[str, Value]):
     def tradeoff(self, *, progress: Progress = None) -> TradeoffResults:
         """Measures computing time against true error, for bases of several sizes. ``progress`` is
         as in :meth:`run_campbell`.
-
-        Examples
-        --------
-        >>> import sawflutter as sf
-        >>> free = sf.Scene.paper().replace({"guides": [], "sweep.to_rpm": 500})
-        >>> free.tradeoff().recommended(1e-2) is not None
-        True
         """
         with reporting(progress, "settings") as told:
-            text = _native.run("tradeoff", self._text, {}, told)
+            text, _ = _native.run("tradeoff", self._text, {}, told)
         warned(_native.unusual_numbers(self._text))
         return TradeoffResults._from_json(text, self.name)
 
@@ -900,12 +841,6 @@ class Scene(Drawn, Mapping[str, Value]):
             as the accuracy requires.
         accuracy, tolerance
             As in :meth:`run_campbell`.
-
-        Examples
-        --------
-        >>> import sawflutter as sf
-        >>> sf.Scene.paper().matrices(basis=(6, 4)).stiffness.shape
-        (52, 52)
         """
         if basis is not None:
             if not isinstance(basis, tuple) or len(basis) != 2:
@@ -934,13 +869,6 @@ class Scene(Drawn, Mapping[str, Value]):
             Index of the guide, counted from 0; by default all guides.
         accuracy, tolerance, progress
             As in :meth:`run_campbell`.
-
-        Examples
-        --------
-        >>> import sawflutter as sf
-        >>> found = sf.Scene.paper().run_stiffness_map([1e4, 1e8], accuracy="draft")
-        >>> found.critical_rpm[:, 0].round().tolist()
-        [1477.0, 1563.0]
         """
         chosen = range(len(self.guides)) if guide is None else [whole("guide", guide)]
         if not chosen:
@@ -952,32 +880,12 @@ class Scene(Drawn, Mapping[str, Value]):
         with reporting(progress, "saws") as told:
             for done, value in enumerate(stiffness.tolist(), start=1):
                 saw = saw.replace({f"guides[{at}].stiffness_n_per_m": value for at in chosen})
-                reports.append(CampbellResults._from_json(_native.run("analyze", saw._text, plain)))
+                reports.append(CampbellResults._from_json(_native.run("analyze", saw._text, plain)[0]))
                 if told is not None:
                     told(done, len(stiffness), "")
         warned(text for report in reports for text in report._warnings())
         critical = array([report.critical_rpm.tolist() for report in reports])
         return StiffnessMap(self.name, stiffness, critical, array([r.flutter_rpm for r in reports]))
-
-    def _with(self, given: Mapping[str, Number | None]) -> Self:
-        """The scene with those numbers that are not None, each by its path."""
-        changes = {path: value for path, value in given.items() if value is not None}
-        return self.replace(changes) if changes else self
-
-    def _with_block(self, block: str, given: Mapping[str, Number | None], stretching: bool | None) -> Self:
-        """The same, with typical numbers for the others of a block that the scene lacks."""
-        changes = [f"{path}={number(path, value)!r}" for path, value in given.items() if value is not None]
-        scene = self
-        if changes:
-            text, assumed = _native.with_block(self._text, block, changes)
-            warned([] if assumed is None else [assumed])
-            scene = self._of(text)
-        if block in scene._data:
-            return scene if stretching is None else scene.replace({f"{block}.stretching": bool(stretching)})
-        call = {"cut": "run_cut(2400, power_w=12000)", "runup": "run_up(to_rpm=3000)"}[block]
-        keys = {"cut": "power_w, depth_m, feed_m_per_s", "runup": "to_rpm, duration_s"}[block]
-        remedy = f"add it with {keys}, or give a number, with which typical ones are assumed: {call}"
-        raise ArgumentError(f"the scene has no {block}; {remedy}", block, None, f"a block {block}", remedy)
 
     def _asked(
         self, kind: type[R], accuracy: Accuracy | None, tolerance: Number | None, progress: Progress, **options: Any
@@ -985,8 +893,9 @@ class Scene(Drawn, Mapping[str, Value]):
         """The library's report of this scene at another accuracy, with its warnings."""
         scene = self.with_accuracy(accuracy, tolerance)
         with reporting(progress, kind._steps) as told:
-            result = kind._from_json(_native.run(kind._command, scene._text, options, told))
-        warned(result._warnings())
+            report, assumed = _native.run(kind._command, scene._text, options, told)
+        result = kind._from_json(report)
+        warned([*([] if assumed is None else [assumed]), *result._warnings()])
         return result
 
     if not TYPE_CHECKING:
@@ -1023,12 +932,6 @@ class Scene(Drawn, Mapping[str, Value]):
 def keys(word: str = "", *, study: bool = False) -> str:
     """The keys of a scene, or of a study, whose path contains a word, each with its unit, default,
     usual range and meaning, as printed by ``sawflutter keys``.
-
-    Examples
-    --------
-    >>> import sawflutter as sf
-    >>> print(sf.keys("operating_rpm").splitlines()[0])
-    operating_rpm  [rpm]  usual range 30 to 60000
     """
     return _native.keys(word, study)
 
@@ -1059,19 +962,3 @@ def _scene(name: str, value: T) -> T:
 def _short(value: object) -> object:
     """A value of which an error shows the kind only."""
     return value if isinstance(value, (str, int, float, type(None))) else type(value)
-
-
-def _bounds(free: Free) -> list[tuple[str, tuple[float, float] | None]]:
-    if isinstance(free, str):
-        free = [free]
-    if not isinstance(free, Mapping):
-        return [(path, None) for path in free or ()]
-    found: list[tuple[str, tuple[float, float] | None]] = []
-    for path, bounds in free.items():
-        if bounds is None:
-            found.append((path, None))
-            continue
-        if not isinstance(bounds, (tuple, list, np.ndarray)) or len(bounds) != 2:
-            raise refused(path, bounds, "two bounds, the lower one first", "write it like (0.18, 0.28)")
-        found.append((path, (number(path, bounds[0]), number(path, bounds[1]))))
-    return found

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from . import _channels
+from . import _channels, _native
 from ._drawn import Drawn
 from ._entry import ComplexArray, Entry, FloatArray, array
 from ._extras import extra
@@ -73,15 +73,6 @@ class Spectrum(Drawn, Entry):
         -------
         Peaks
             With at least a thousandth of the largest amplitude.
-
-        Examples
-        --------
-        >>> import numpy as np
-        >>> import sawflutter as sf
-        >>> time = np.arange(0, 4, 1e-3)
-        >>> tap = sf.Record(np.exp(-time) * np.cos(2 * np.pi * 25 * time), 1000)
-        >>> tap.spectrum().peaks().rpm.tolist()
-        [0.0]
         """
         spectra = [(self.rpm, np.abs(self.response))]
         found = rows(self.frequency_hz, spectra, self.resolution_hz, orders, above_db)
@@ -102,9 +93,10 @@ class Spectrum(Drawn, Entry):
         sawflutter.plot.Chart
             Its ``plot()`` and ``plot_matplotlib()`` draw it.
         """
-        from .plot.measured import spectrum
+        from .plot.described import read
 
-        return spectrum(self, saw, peaks)
+        computed = None if saw is None else (saw.name, saw.modes(self.rpm).frequency_hz)
+        return read(_native.spectrum_chart(self, np.abs(self.response), computed, peaks))
 
     def __repr__(self) -> str:
         lines = f"{len(self.frequency_hz)} lines up to {self.frequency_hz[-1]:.0f} Hz"

@@ -70,16 +70,6 @@ class StateSpace(Entry):
         ValueError
             Where no mode is as low, or where the modes cannot be separated: two of them coalesce
             at this speed, or nothing holds the blade against a rigid motion.
-
-        Examples
-        --------
-        >>> import numpy as np
-        >>> import sawflutter as sf
-        >>> m = sf.Scene.paper().matrices(basis=(8, 5))
-        >>> whole = m.state_space(1000, inputs=[(0.355, 0)], outputs=[(0.355, 90)])
-        >>> low = whole.reduced(to_hz=100)
-        >>> len(low.A) < len(whole.A), bool(np.allclose(low.response(0.0), whole.response(0.0)))
-        (True, True)
         """
         to_hz = number("to_hz", to_hz)
         values, vectors = np.linalg.eig(self.A)
@@ -109,14 +99,6 @@ class StateSpace(Entry):
         frequency_hz : array_like
             Frequencies in space. The result has their shape, with outputs and inputs as its last
             axes.
-
-        Examples
-        --------
-        >>> import sawflutter as sf
-        >>> rim = [(0.355, 90)]
-        >>> space = sf.Scene.paper().matrices(basis=(8, 5)).state_space(1000, inputs=rim, outputs=rim)
-        >>> space.response([1.0, 2.0]).shape
-        (2, 1, 1)
         """
         hz = numbers("frequency_hz", frequency_hz)
         found = np.empty((hz.size, len(self.C), self.B.shape[1]), complex)

@@ -33,20 +33,7 @@ class StudyResults(Result, StudyReport):
             beside.write_bytes(table.encode())
 
     def to_dataframe(self) -> pd.DataFrame:
-        """One row for each saw, from the table beside the report; needs pandas.
-
-        Examples
-        --------
-        >>> import tempfile
-        >>> import sawflutter as sf
-        >>> even = {"kind": "tolerance", "plus_minus": 5e-5}
-        >>> thickness = {"path": "blade.thickness_m", "distribution": even}
-        >>> free = sf.Scene.paper().replace({"accuracy": "draft", "guides": []})
-        >>> study = sf.Study(free, {"name": "Thickness", "saws": 4, "parameters": [thickness]})
-        >>> found = study.run(tempfile.mkdtemp())
-        >>> len(found.to_dataframe())
-        4
-        """
+        """One row for each saw, from the table beside the report; needs pandas."""
         table = self._csv()
         if table is None:
             raise FileNotFoundError(
@@ -88,18 +75,6 @@ class StudyResults(Result, StudyReport):
             half-widths ``lowest_critical_confidence``, ``flutter_confidence``. A column is NaN if
             all saws have the same speed. A saw without such a speed counts with the last speed of
             its sweep; saws without an analysis are left out.
-
-        Examples
-        --------
-        >>> import tempfile
-        >>> import sawflutter as sf
-        >>> even = {"kind": "tolerance", "plus_minus": 5e-5}
-        >>> thickness = {"path": "blade.thickness_m", "distribution": even}
-        >>> free = sf.Scene.paper().replace({"accuracy": "draft", "guides": []})
-        >>> study = sf.Study(free, {"name": "Thickness", "saws": 64, "parameters": [thickness]})
-        >>> found = study.run(tempfile.mkdtemp())
-        >>> bool(found.sensitivity().loc["blade.thickness_m", "lowest_critical"] > 0.8)
-        True
         """
         with extra("sensitivity"):
             import pandas as pd
@@ -132,7 +107,7 @@ class StudyResults(Result, StudyReport):
         speed : {"lowest_critical_rpm", "flutter_rpm"}
             Speed to show; the median if a point of the grid has several random saws.
         """
-        from .plot.derived import grid
+        from .plot.described import read
 
         paths = [
             parameter["path"]
@@ -141,8 +116,8 @@ class StudyResults(Result, StudyReport):
         ]
         if len(paths) != 2:
             raise ValueError(f"a map needs a grid of two numbers, and this study has {len(paths)}")
-        rows = self.to_dataframe()[[*paths, speed]].to_numpy(dtype=float)
-        return grid(self, rows, (paths[0], paths[1]), speed)
+        rows = self.to_dataframe()[[*paths, speed]].to_numpy(dtype=float).tolist()
+        return read(_native.grid_chart(self.study["name"], paths, speed, rows))
 
     def _warnings(self) -> tuple[str, ...]:
         lost = ((self.all.refused, "refused"), (self.all.failed, "failed"))

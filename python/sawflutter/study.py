@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Any, cast
 
 import numpy as np
 
-from . import _native, _tasks, _values
+from . import _native, _tasks
 from ._entry import FloatArray
 from ._progress import Progress, reporting
 from ._scene_types import StudyDict
@@ -56,7 +56,7 @@ class Study:
         if isinstance(study, (str, os.PathLike)):
             text = _native.read_text(study, False)
         else:
-            text = _values.to_json(study)
+            text = _native.plain(study)
         _scene("scene", scene)
         self.scene, self._native = scene, _native.Study(scene.to_json(), text)
         self._text = json.dumps(json.loads(text))
@@ -103,18 +103,6 @@ class Study:
         progress : bool or callable, optional
             True shows a bar. A callable is called with the finished and the total number of saws.
             With a client of Dask the address of its dashboard is printed too.
-
-        Examples
-        --------
-        >>> import tempfile
-        >>> import sawflutter as sf
-        >>> even = {"kind": "tolerance", "plus_minus": 5e-5}
-        >>> thickness = {"path": "blade.thickness_m", "distribution": even}
-        >>> free = sf.Scene.paper().replace({"accuracy": "draft", "guides": []})
-        >>> study = sf.Study(free, {"name": "Thickness", "saws": 4, "parameters": [thickness]})
-        >>> found = study.run(tempfile.mkdtemp())
-        >>> found
-        <StudyResults 'Guided spline arbor saw': 4 saws>
         """
         place = Path(folder)
         self._compute(place, executor, progress)

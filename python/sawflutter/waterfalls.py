@@ -3,17 +3,18 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from math import pi, sqrt
 from typing import TYPE_CHECKING
 
 import numpy as np
 
+from . import _native
 from ._drawn import Drawn
 from ._entry import Entry, FloatArray, array
 from ._extras import extra
 from ._values import Number, number
-from ._picking import rows
+from ._picking import lowest_hz, rows
 from .errors import refused
 from .peaks import Peaks
 
@@ -75,15 +76,6 @@ class Waterfall(Drawn, Entry):
         Peaks
             With frequencies above twice the resolution, and with at least a thousandth of the
             largest amplitude at their speed.
-
-        Examples
-        --------
-        >>> import numpy as np
-        >>> import sawflutter as sf
-        >>> tone = np.sin(2 * np.pi * 40 * np.arange(0, 30, 1e-3))
-        >>> w = sf.Record(tone, 1000, rpm=(0, 1500)).waterfall(to_hz=100)
-        >>> np.abs(w.peaks().frequency_hz - 40.0).max() < 0.01
-        np.True_
         """
         spectra = zip(self.rpm, self.amplitude)
         found = rows(self.frequency_hz, spectra, self.resolution_hz, orders, above_db)
@@ -116,11 +108,15 @@ class Waterfall(Drawn, Entry):
         sawflutter.plot.Chart
             Its ``plot()`` and ``plot_matplotlib()`` draw it.
         """
-        from .plot.measured import waterfall
+        from .plot.described import read
+        from .plot.look import with_harmonics
 
-        if not number("range_db", range_db) > 0.0:
+        if not (span := number("range_db", range_db)) > 0.0:
             raise refused("range_db", range_db, "above 0", "60 is usual")
-        return waterfall(self, computed, peaks, [number("orders", order) for order in orders], number("range_db", range_db))
+        report = None if computed is None else computed.to_json()
+        chart = read(_native.waterfall_chart(self, lowest_hz(self.resolution_hz), span, report, peaks))
+        multiples = [number("orders", order) for order in orders]
+        return replace(chart, panels=tuple(with_harmonics(chart.panels, multiples)))
 
     def __repr__(self) -> str:
         speeds = f"{len(self.rpm)} spectra from {self.rpm[0]:.0f} to {self.rpm[-1]:.0f} rpm"

@@ -7,27 +7,27 @@ use pyo3::prelude::*;
 use pyo3::types::PyDict;
 use sawflutter::analyses::campbell::{ModeShape, Sensitivity};
 use sawflutter::analyses::check::{self, Limits, LimitsFile};
+use sawflutter::analyses::commands::Call;
 use sawflutter::analyses::compare::{LabelledSaw, Saw, compare as compare_saws};
 use sawflutter::analyses::fit::{self, Measurement, Options as FitOptions};
 use sawflutter::analyses::gap::{self, Options as GapOptions};
 use sawflutter::analyses::place::{self, Demands, GapDemands, Options as PlaceOptions, Tolerances};
 use sawflutter::analyses::tradeoff::tradeoff;
 use sawflutter::analyses::{cut, deflect, response, runup, washboard};
-use sawflutter::model::scene::{AssumedBlock, Freed, NamedBounds, RefusedValue, Scene, Setting};
+use sawflutter::model::scene::{Freed, Scene};
 use sawflutter::modes::{SpectralModel, Strategy};
 use sawflutter::stability::{Analysis, AnalysisOptions, ChosenBasis, ExpectedWork};
 use serde::Serialize;
 
 use crate::arguments::{self, Options};
 use crate::failure::Failure;
-use crate::scenes::written;
 use crate::watch::{Meter, compute};
 
 /// A command with its options; the result is its report.
 type Work = Box<dyn FnOnce(&Scene, &Meter) -> Result<String, Failure> + Send>;
 
-/// Runs a command of the program on a scene and gives the report. The options are those of the method of Python, all
-/// of them, by their names.
+/// Runs a command of the program on a scene and gives the report, and a sentence with the numbers that were assumed, if any
+/// were. The options are those of the method of Python, all of them, by their names.
 #[pyfunction]
 #[pyo3(signature = (command, scene, options, progress=None))]
 pub fn run(
@@ -36,7 +36,7 @@ pub fn run(
     scene: &str,
     options: Bound<'_, PyDict>,
     progress: Option<Bound<'_, PyAny>>,
-) -> PyResult<String> {
+) -> PyResult<(String, Option<String>)> {
     let options = Options(options);
     let work = match command {
         "analyze" => analyze(&options)?,
@@ -56,7 +56,12 @@ pub fn run(
         _ => return Err(PyValueError::new_err(format!("no command {command:?}"))),
     };
     let scene = arguments::scene(scene)?;
-    compute(py, progress, move |meter| work(&scene, meter))
+    let (scene, assumed) = match Call::named(command) {
+        Some(call) => options.applied(call, scene)?,
+        None => (scene, None),
+    };
+    let report = compute(py, progress, move |meter| work(&scene, meter))?;
+    Ok((report, assumed))
 }
 
 /// JSON as the program writes it to its files.
@@ -128,7 +133,7 @@ pub fn compare(
 /// frequency up to which they are complete.
 fn modes(options: &Options<'_>) -> PyResult<Work> {
     let at_rpm: Vec<f64> = options.get("at_rpm")?;
-    let to_hz: Option<f64> = options.get("to_hz")?;
+    let to_hz: Option<f64> = options.number("to_hz")?;
     let n_modes: Option<usize> = options.get("n_modes")?;
     Ok(Box::new(move |scene, meter| {
         let chosen = ChosenBasis::new(scene, scene.tolerance())?;
@@ -168,44 +173,16 @@ fn modes(options: &Options<'_>) -> PyResult<Work> {
     }))
 }
 
-/// A scene with the numbers of settings like `cut.power_w=12000`, in which typical numbers are assumed for a block that it
-/// lacks; and a sentence with those that were assumed, if any were.
-#[pyfunction]
-pub fn with_block(
-    scene: &str,
-    block: &str,
-    given: Vec<String>,
-) -> PyResult<(String, Option<String>)> {
-    let block = match block {
-        "cut" => AssumedBlock::Cut,
-        "runup" => AssumedBlock::RunUp,
-        _ => return Err(PyValueError::new_err(format!("no block {block:?}"))),
-    };
-    let given = given
-        .iter()
-        .map(|text| text.parse())
-        .collect::<Result<Vec<Setting>, RefusedValue>>()
-        .map_err(Failure::from)?;
-    let found = block
-        .completed(&arguments::scene(scene)?, &given)
-        .map_err(Failure::from)?;
-    let said = (!found.assumed.is_empty()).then(|| {
-        let (key, assumed) = (block.key(), found.in_words());
-        format!("the scene has no {key}; assumed typical values: {assumed}")
-    });
-    Ok((written(&found.scene)?, said))
-}
-
 /// `check.json`.
 fn check(options: &Options<'_>) -> PyResult<Work> {
     let asked = LimitsFile {
-        operating_rpm: options.get("operating_rpm")?,
-        margin: options.get("margin")?,
-        min_flutter_rpm: options.get("min_flutter_rpm")?,
-        min_critical_rpm: options.get("min_critical_rpm")?,
+        operating_rpm: options.number("operating_rpm")?,
+        margin: options.given("margin")?,
+        min_flutter_rpm: options.number("min_flutter_rpm")?,
+        min_critical_rpm: options.number("min_critical_rpm")?,
     };
-    let max_rim_m_per_s = options.get("max_rim_m_per_s")?;
-    let max_amplitude_mm = millimetres(options.get("max_amplitude_m")?);
+    let max_rim_m_per_s = options.given("max_rim_m_per_s")?;
+    let max_amplitude_mm = options.millimetres("max_amplitude_m")?;
     let accept_unusual = options.get("accept_unusual")?;
     Ok(Box::new(move |scene, _| {
         let limits = Limits {
@@ -238,7 +215,7 @@ fn runup(scene: &Scene, meter: &Meter) -> Result<String, Failure> {
 /// `deflect.json`, up to a speed.
 fn deflect(options: &Options<'_>) -> PyResult<Work> {
     let options = deflect::Options {
-        to_rpm: options.get("to_rpm")?,
+        to_rpm: options.number("to_rpm")?,
     };
     Ok(Box::new(move |scene, _| {
         options.checked()?;
@@ -249,8 +226,8 @@ fn deflect(options: &Options<'_>) -> PyResult<Work> {
 /// `response.json`, with the frequency response at a speed.
 fn response(options: &Options<'_>) -> PyResult<Work> {
     let options = response::Options {
-        rpm: options.get("rpm")?,
-        to_hz: options.get("to_hz")?,
+        rpm: options.number("rpm")?,
+        to_hz: options.number("to_hz")?,
     };
     Ok(Box::new(move |scene, _| {
         options.checked()?;
@@ -261,8 +238,8 @@ fn response(options: &Options<'_>) -> PyResult<Work> {
 /// `gap.json`, at a speed.
 fn gap(options: &Options<'_>) -> PyResult<Work> {
     let options = GapOptions {
-        rpm: options.get("rpm")?,
-        max_deviation_mm: millimetres(options.get("max_deviation_m")?),
+        rpm: options.number("rpm")?,
+        max_deviation_mm: options.millimetres("max_deviation_m")?,
     };
     Ok(Box::new(move |scene, _| {
         options.checked(scene)?;
@@ -272,7 +249,7 @@ fn gap(options: &Options<'_>) -> PyResult<Work> {
 
 /// `washboard.json` at the operating speed or another one.
 fn washboard(options: &Options<'_>) -> PyResult<Work> {
-    let rpm = options.get("rpm")?;
+    let rpm = options.number("rpm")?;
     Ok(Box::new(move |scene, meter| {
         let cut = scene.needed_washboarding()?;
         let run = cut.at_rpm(scene.needed_operating_rpm(rpm)?)?;
@@ -282,19 +259,14 @@ fn washboard(options: &Options<'_>) -> PyResult<Work> {
     }))
 }
 
-/// Millimetres of an argument in metres.
-fn millimetres(metres: Option<f64>) -> Option<f64> {
-    metres.map(|metres| 1e3 * metres)
-}
-
 /// `fit.json`. `measured` is a name and a table as comma-separated values; without it the fit uses the scene's own
 /// frequencies.
 fn fit(options: &Options<'_>) -> PyResult<Work> {
     let measured: Option<(String, String)> = options.get("measured")?;
-    let free: Vec<NamedBounds> = options.get("free")?;
-    let to_rpm: Option<f64> = options.get("to_rpm")?;
+    let free = options.bounds("free")?;
+    let to_rpm: Option<f64> = options.number("to_rpm")?;
     let options = FitOptions {
-        confidence: options.get("confidence")?,
+        confidence: options.given("confidence")?,
         starts: options.get("starts")?,
         to_rpm: to_rpm.unwrap_or(f64::INFINITY),
         ..FitOptions::default()
@@ -313,21 +285,21 @@ fn fit(options: &Options<'_>) -> PyResult<Work> {
 
 /// `place.json`.
 fn place(options: &Options<'_>) -> PyResult<Work> {
-    let free: Vec<NamedBounds> = options.get("free")?;
+    let free = options.bounds("free")?;
     let goal: String = options.get("goal")?;
-    let min_critical_rpm = options.get("min_critical_rpm")?;
-    let amplitude_mm = millimetres(options.get("amplitude_m")?);
-    let max_deviation_mm = millimetres(options.get("max_deviation_m")?);
+    let min_critical_rpm = options.number("min_critical_rpm")?;
+    let amplitude_mm = options.millimetres("amplitude_m")?;
+    let max_deviation_mm = options.millimetres("max_deviation_m")?;
     let refine: u64 = options.get("refine")?;
     let options = PlaceOptions {
         samples: options.get("samples")?,
         refine: refine.max(1),
         map: options.get("map")?,
         tolerances: Tolerances {
-            radius_m: options.get("radius_tolerance_m")?,
-            angle_deg: options.get("angle_tolerance_deg")?,
-            guide_share: options.get("guide_tolerance_share")?,
-            other_share: options.get("other_tolerance_share")?,
+            radius_m: options.given("radius_tolerance_m")?,
+            angle_deg: options.given("angle_tolerance_deg")?,
+            guide_share: options.given("guide_tolerance_share")?,
+            other_share: options.given("other_tolerance_share")?,
         },
         ..PlaceOptions::default()
     };

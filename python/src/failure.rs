@@ -107,35 +107,34 @@ impl From<SceneError> for Failure {
         let class = "SceneError";
         match error {
             SceneError::File(source) => file(class, source),
-            SceneError::Syntax { key, message } => syntax(class, key, &message),
+            SceneError::Syntax {
+                key,
+                message,
+                allowed,
+                remedy,
+            } => syntax(class, key, &message, [allowed, remedy]),
             SceneError::Value(refused) => value(class, refused),
             _ => Refusal::saying(class, message, None),
         }
     }
 }
 
-/// A key or a value that is no part of a scene or a study. The message says what is wrong, and after a semicolon what is
-/// allowed or what to do.
-fn syntax(class: &'static str, key: String, message: &str) -> Failure {
+/// A key or a value that is no part of a scene or a study.
+fn syntax(
+    class: &'static str,
+    key: String,
+    message: &str,
+    [allowed, remedy]: [Option<String>; 2],
+) -> Failure {
     // The text is a single generated line, so its line number is meaningless to the user.
     let message = message.replace(" (line 1)", "");
-    let (wrong, remedy) = message.split_once("; ").unwrap_or((&message, ""));
-    let first = remedy.split("; ").next().unwrap_or_default();
-    let allowed = match wrong.strip_prefix("must be ") {
-        Some(allowed) => allowed.split(" (you gave").next().map(str::to_owned),
-        None => ["give ", "did you mean "]
-            .iter()
-            .find_map(|start| first.strip_prefix(start))
-            .map(|allowed| allowed.trim_end_matches('?').to_owned()),
-    };
-    let remedy = (!remedy.is_empty()).then(|| remedy.to_owned());
     Failure::Refused(Box::new(Refusal {
         class,
         message: format!("{key}: {message}"),
         key: Some(key),
         value: None,
-        remedy: remedy.or_else(|| allowed.as_ref().map(|allowed| format!("give {allowed}"))),
         allowed,
+        remedy,
     }))
 }
 
@@ -154,7 +153,12 @@ impl From<StudyError> for Failure {
         let message = error.to_string();
         let class = "StudyError";
         match error {
-            StudyError::Syntax { key, message } => syntax(class, key, &message),
+            StudyError::Syntax {
+                key,
+                message,
+                allowed,
+                remedy,
+            } => syntax(class, key, &message, [allowed, remedy]),
             StudyError::Value(refused) => value(class, refused),
             StudyError::Scene { key, source } => match Failure::from(source) {
                 Failure::Refused(refusal) => Failure::Refused(Box::new(Refusal {

@@ -15,7 +15,7 @@ fn named(command: &str) -> Result<&'static Command, Failure> {
 }
 
 /// Reads a report of the command of this name.
-fn read(command: &str, report: &str) -> Result<Box<dyn CommandReport>, Failure> {
+pub fn read(command: &str, report: &str) -> Result<Box<dyn CommandReport>, Failure> {
     Ok(named(command)?.read(report)?)
 }
 

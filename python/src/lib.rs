@@ -2,6 +2,7 @@
 //! bytes of doubles. The package around it makes the Python objects.
 
 mod arguments;
+mod charts;
 mod commands;
 mod failure;
 mod figures;
@@ -9,6 +10,7 @@ mod map;
 mod matrices;
 mod scenes;
 mod study;
+mod values;
 mod watch;
 
 use pyo3::prelude::*;
@@ -20,7 +22,9 @@ use crate::failure::Failure;
 #[pymodule]
 mod _native {
     #[pymodule_export]
-    use super::commands::{compare, run, with_block};
+    use super::charts::{grid_chart, saw_chart, spectrum_chart, stiffness_chart, waterfall_chart};
+    #[pymodule_export]
+    use super::commands::{compare, run};
     #[pymodule_export]
     use super::figures::{
         campbell_csv, chart, figure_names, html, page, palette, picture, summary, tradeoff_chart,
@@ -31,11 +35,13 @@ mod _native {
     #[pymodule_export]
     use super::matrices::{functions_at, matrices};
     #[pymodule_export]
-    use super::scenes::{axis_name, number, replace, scene, unit, unusual_numbers, value};
+    use super::scenes::{replace, scene, unusual_numbers, value};
     #[pymodule_export]
     use super::study::{Study, StudyLog, processor, speeds};
     #[pymodule_export]
-    use super::{keys, outlines, panic, paper, program, read_scene, read_text, schema};
+    use super::values::{magnitude, number, plain};
+    #[pymodule_export]
+    use super::{calls, keys, outlines, panic, paper, program, read_scene, read_text, schema};
 }
 
 /// Corners of the guides of a scene in metres, each as x and y.
@@ -83,6 +89,12 @@ fn schema() -> String {
         "reports": sawflutter::analyses::commands::json_schema(),
     })
     .to_string()
+}
+
+/// Arguments of each command beside its scene, as JSON.
+#[pyfunction]
+fn calls() -> String {
+    serde_json::json!(sawflutter::analyses::commands::CALLS).to_string()
 }
 
 /// The keys of a scene, or of a study, whose path contains a word, as text.

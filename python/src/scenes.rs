@@ -1,66 +1,22 @@
-//! Scenes as JSON: values by their paths, and numbers given with a unit.
+//! Scenes as JSON, and values by their paths.
 
 use pyo3::prelude::*;
-use sawflutter::model::scene::{Quantity, Scene, SceneError, number_in, number_of};
+use pyo3::types::{PyMapping, PyString};
+use sawflutter::model::scene::{Quantity, Scene, SceneError, number_of};
 use serde_json::{Map, Value};
 
 use crate::arguments;
 use crate::failure::{Failure, Refusal};
+use crate::values;
 
-/// Units of arguments, by the end of their names. The longest one counts.
-const UNITS: [(&str, &str); 11] = [
-    ("_n_per_m", "N/m"),
-    ("_m_per_s", "m/s"),
-    ("_per_s", "1/s"),
-    ("rpm", "rpm"),
-    ("_deg", "°"),
-    ("_hz", "Hz"),
-    ("_m", "m"),
-    ("_n", "N"),
-    ("_s", "s"),
-    ("_w", "W"),
-    ("_db", "dB"),
-];
-
-/// The unit of a path of a scene, or of an argument by its name; empty for a number without one.
+/// The scene of a JSON text, or of a dict of Python, validated, as JSON.
 #[pyfunction]
-pub fn unit(name: &str) -> &'static str {
-    match Quantity::of(name) {
-        Some(quantity) => quantity.unit,
-        None => {
-            let own = UNITS.iter().find(|(ending, _)| name.ends_with(ending));
-            own.map_or("", |(_, unit)| unit)
-        }
-    }
-}
-
-/// The name of the number of a path with its unit, for an axis.
-#[pyfunction]
-pub fn axis_name(path: &str) -> String {
-    match Quantity::of(path) {
-        None => path.to_owned(),
-        Some(quantity) if quantity.unit.is_empty() => quantity.name.to_owned(),
-        Some(quantity) => format!("{} [{}]", quantity.name, quantity.unit),
-    }
-}
-
-/// The number of a text like `2.6mm`, in the unit of a path of a scene or of an argument.
-#[pyfunction]
-pub fn number(name: &str, text: &str) -> PyResult<f64> {
-    // A path with a block is that of a scene, and a single word the name of an argument.
-    let found = match Quantity::of(name) {
-        Some(_) if name.contains('.') => {
-            number_of(name, text).map_err(|refused| Failure::from(SceneError::Value(refused)))
-        }
-        _ => number_in(name, unit(name), text).map_err(Failure::from),
+pub fn scene(data: &Bound<'_, PyAny>) -> PyResult<String> {
+    let found = match data.cast::<PyString>() {
+        Ok(text) => json(&text.to_cow()?)?,
+        Err(_) => values::json("", data)?,
     };
-    Ok(found?)
-}
-
-/// The scene of a JSON text, validated, as JSON.
-#[pyfunction]
-pub fn scene(text: &str) -> PyResult<String> {
-    Ok(validated(json(text)?)?)
+    Ok(validated(found)?)
 }
 
 /// The scene as JSON.
@@ -68,20 +24,35 @@ pub fn written(scene: &Scene) -> Result<String, Failure> {
     Ok(serde_json::to_string(scene.file())?)
 }
 
-/// A scene with values at other paths. `changes` is a JSON object; null removes a key.
+/// A scene with values at other paths; none removes a key.
 #[pyfunction]
-pub fn replace(scene: &str, changes: &str) -> PyResult<String> {
+pub fn replace(scene: &str, changes: &Bound<'_, PyAny>) -> PyResult<String> {
     let mut data: Value = serde_json::from_str(scene).map_err(Failure::from)?;
-    let changes: Map<String, Value> = serde_json::from_str(changes).map_err(Failure::from)?;
-    for (path, value) in changes {
+    let Ok(changes) = changes.cast::<PyMapping>() else {
+        let said = "values by their paths, like {\"blade.thickness_m\": \"2.6 mm\"}";
+        return values::refused("changes", changes, said.to_owned(), "give a dict");
+    };
+    for item in changes.items()? {
+        let (path, value): (Bound<'_, PyAny>, Bound<'_, PyAny>) = item.extract()?;
+        let path = path_of(&path)?;
+        let value = values::json(&path, &value)?;
         put(&mut data, &path, value)?;
     }
     Ok(validated(data)?)
 }
 
+/// The text of a path.
+fn path_of(path: &Bound<'_, PyAny>) -> PyResult<String> {
+    match path.extract() {
+        Ok(text) => Ok(text),
+        Err(_) => Err(no_path(&path.repr()?.to_string(), &path.str()?.to_string()).into()),
+    }
+}
+
 /// The value at a path of a scene, as JSON.
 #[pyfunction]
-pub fn value(scene: &str, path: &str) -> PyResult<String> {
+pub fn value(scene: &str, path: &Bound<'_, PyAny>) -> PyResult<String> {
+    let path = &path_of(path)?;
     let mut place: &Value = &serde_json::from_str(scene).map_err(Failure::from)?;
     let mut reached = String::new();
     for step in steps(path)? {
@@ -114,7 +85,6 @@ impl Step {
 
 /// The steps of a path like `guides[0].radius_m`.
 fn steps(path: &str) -> Result<Vec<Step>, Failure> {
-    const REMEDY: &str = "write it like guides[0].radius_m";
     let parsed = || {
         let mut found = Vec::new();
         for part in path.split('.') {
@@ -133,10 +103,13 @@ fn steps(path: &str) -> Result<Vec<Step>, Failure> {
         }
         Some(found)
     };
-    parsed().ok_or_else(|| {
-        let message = format!("{path:?} is no path of a scene; {REMEDY}");
-        refused_path(message, path, "a path of the scene".to_owned(), REMEDY)
-    })
+    parsed().ok_or_else(|| no_path(&format!("{path:?}"), path))
+}
+
+fn no_path(shown: &str, path: &str) -> Failure {
+    let remedy = "write it like guides[0].radius_m";
+    let message = format!("{shown} is no path of a scene; {remedy}");
+    refused_path(message, path, "a path of the scene".to_owned(), remedy)
 }
 
 fn put(data: &mut Value, path: &str, mut value: Value) -> Result<(), Failure> {

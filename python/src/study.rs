@@ -187,11 +187,18 @@ impl Study {
 /// The last saw beside which others were analysed, with its basis.
 static BESIDE: Mutex<Option<(String, Arc<study::Study>)>> = Mutex::new(None);
 
-/// Critical speeds, flutter speed and bands of a scene, as JSON, and the last speed in rpm, on a basis that is at least as
-/// large as that of another scene.
+/// Critical speeds, flutter speed and bands of a scene, as JSON, and the last speed in rpm; if another scene is given, on a
+/// basis that is at least as large as that of the other one, and up to its last speed.
 #[pyfunction]
-pub fn speeds(py: Python<'_>, scene: &str, beside: &str) -> PyResult<(String, f64)> {
+pub fn speeds(py: Python<'_>, scene: &str, beside: Option<&str>) -> PyResult<(String, f64)> {
     let scene = arguments::scene(scene)?;
+    let Some(beside) = beside else {
+        return compute(py, None, move |_| {
+            let study = study::Study::of_one(scene)?;
+            let text = json(&study.own_speeds()?)?;
+            Ok((text, rpm(study.to_rad_per_s())))
+        });
+    };
     let known = lock(&BESIDE)
         .as_ref()
         .filter(|known| known.0 == beside)

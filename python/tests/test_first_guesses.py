@@ -66,6 +66,7 @@ def test_unknown_keys_and_words_say_what_is_allowed() -> None:
         with pytest.raises(sf.SceneError) as caught:
             sf.Scene.paper().replace(changes)
         assert caught.value.key == key and caught.value.remedy and "line" not in str(caught.value)
+        assert caught.value.remedy.partition(";")[0] in f"{caught.value}; give {caught.value.allowed}"
         assert caught.value.allowed is not None and allowed in caught.value.allowed
 
 
@@ -185,6 +186,10 @@ def test_speeds_are_those_of_the_chart(draft: sf.Scene) -> None:
     assert found.critical_rpm == pytest.approx(r.critical_rpm, rel=5e-3)
     assert [band.kind for band in found.bands[:3]] == [band.kind for band in r.bands[:3]]
     assert thin.speeds(beside=draft) == found and found.to_rpm == pytest.approx(3000.0)
+    # A saw alone has a basis of its own.
+    own = thin.speeds()
+    assert own.flutter_rpm == pytest.approx(r.flutter_rpm, rel=5e-3) and own.to_rpm == found.to_rpm
+    assert own.critical_rpm == pytest.approx(r.critical_rpm, rel=5e-3)
 
 
 def test_what_is_shown_is_short(draft: sf.Scene, report: sf.CampbellResults) -> None:

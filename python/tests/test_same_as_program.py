@@ -160,7 +160,7 @@ def test_the_shapes(programs: list[str], scenes: Path, tmp_path: Path) -> None:
     found = sf.Scene.load(scenes / "paper.json").run_campbell(accuracy="draft", shapes=[1000])
     assert found.shapes[-1].rpm == pytest.approx(1000)
     (tmp_path / "own").mkdir()
-    found.save_vtk(tmp_path / "own")
+    found.save(tmp_path / "own" / "modes.pvd")
     for program in programs:
         options = ["--accuracy", "draft", "--at-rpm", 1000, "--vtk", "--out", tmp_path]
         assert ran(program, "analyze", scenes / "paper.json", *options).returncode == 0
@@ -193,3 +193,11 @@ def test_the_program_that_pip_installs_is_the_program(programs: list[str]) -> No
     text = helps.pop().decode()
     assert "explore" in text and "analyze" in text
     assert all(ran(program, "analyze", "no-such-file.json").returncode == 2 for program in programs)
+
+
+def test_the_chart_in_the_cut(programs: list[str], scenes: Path, tmp_path: Path) -> None:
+    found = sf.Scene.load(scenes / "paper.json").run_campbell(accuracy="draft", in_cut_rpm="30 rev/s")
+    for program in programs:
+        options = ["--accuracy", "draft", "--in-cut", 1800, "--out", tmp_path]
+        assert ran(program, "analyze", scenes / "paper.json", *options).returncode == 0
+        assert (tmp_path / "report.json").read_text() == found.to_json()

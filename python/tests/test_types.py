@@ -17,6 +17,7 @@ GENERATOR = Path(__file__).resolve().parents[1] / "tools" / "generate_types.py"
 
 def test_the_generated_types_are_up_to_date(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(sys, "argv", [str(GENERATOR), "--check"])
+    monkeypatch.syspath_prepend(str(GENERATOR.parent))
     with pytest.raises(SystemExit) as ended:
         runpy.run_path(str(GENERATOR), run_name="__main__")
     assert ended.value.code == 0, "run python/tools/generate_types.py"
@@ -42,4 +43,4 @@ def test_a_key_with_a_default_may_be_absent(report: sf.CampbellResults, tmp_path
     path.write_text(json.dumps(data), encoding="utf-8")
     found = sf.load(path)
     assert isinstance(found, sf.CampbellResults)
-    assert (found.condition, found.unusual_numbers) == ("", ())
+    assert found.unusual_numbers == ()

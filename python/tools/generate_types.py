@@ -1,5 +1,6 @@
 """Writes sawflutter/_scene_types.py and sawflutter/_report_types.py from the JSON schemas that the
-compiled part derives from the library's own types.
+compiled part derives from the library's own types, and the commands among the methods of
+sawflutter/scene.py from its table of their arguments.
 
     python tools/generate_types.py            writes them
     python tools/generate_types.py --check    exit code 1 where they are out of date
@@ -13,6 +14,8 @@ import sys
 import textwrap
 from pathlib import Path
 from typing import Any
+
+from scene_methods import with_methods
 
 from sawflutter import _native
 
@@ -41,6 +44,13 @@ RENAMED = {
     "critical_speeds_rpm": "critical_rpm",
     "instabilities": "bands",
 }
+
+# Keys of reports without an attribute, because another method gives the same, or because they concern the program; the
+# dict of a report has them.
+HIDDEN = {
+    "sawflutter", "scene", "condition", "terms", "work", "whirl", "root_loci", "overdamped_modes_at_rest",
+    "critical_speeds_without_damping",
+}  # fmt: skip
 
 Schema = dict[str, Any]
 PLAIN = {"number": "float", "integer": "int", "string": "str", "boolean": "bool"}
@@ -287,6 +297,8 @@ class ReportTypes:
         said += ["", "    Attributes", "    ----------"]
         fields = list[str]()
         for key, of, there in ordered(schema):
+            if name.endswith("Report") and key in HIDDEN:
+                continue
             kind = self.type_of(command, of)
             if not there and "None" not in kind:
                 kind += " | None"
@@ -330,6 +342,9 @@ def main() -> int:
     texts = {
         "_scene_types.py": scenes.module(),
         "_report_types.py": ReportTypes(schema["reports"], scenes).module(),
+        "scene.py": with_methods(
+            (PACKAGE / "scene.py").read_text(encoding="utf-8"), json.loads(_native.calls())
+        ),
     }
     status = 0
     for name, text in texts.items():

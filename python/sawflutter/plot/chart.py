@@ -16,13 +16,8 @@ from .. import _native
 from .._drawn import Drawn
 from .._entry import FloatArray
 
-# Width of curves and of the stretches that matter most, in the units of the program's figures.
-CURVE = 1.6
-STRONG_CURVE = 3.4
 # Letters in a line below the title.
 FACTS = 110
-# From low to high: lightness rises evenly, so that grey prints read too.
-LOW_TO_HIGH = ("#341842", "#3a528b", "#21918c", "#7ad151", "#f0ec78")
 
 
 @cache
@@ -46,7 +41,7 @@ class Line:
     y: FloatArray
     colour: str
     name: str = ""
-    width: float = CURVE
+    width: float = 1.6
     dashed: bool = False
     hover: Sequence[str] = ()
     """Text of each point, on lines of its own."""
@@ -86,7 +81,7 @@ class Heat:
     y: FloatArray
     z: FloatArray
     name: str
-    scale: Sequence[str] = LOW_TO_HIGH
+    scale: Sequence[str]
     range: tuple[float, float] | None = None
     log: bool = False
     """Whether the colours follow the logarithm of the values."""

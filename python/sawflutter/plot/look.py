@@ -11,7 +11,7 @@ import numpy as np
 
 from .._drawn import Look, Units
 from .._values import numbers
-from .chart import Area, Bars, Chart, Heat, Item, Label, Line, Panel, Points, Shade, Upright, colours
+from .chart import Chart, Heat, Item, Line, Panel, Points, colours
 
 if TYPE_CHECKING:
     from typing_extensions import Unpack
@@ -97,21 +97,17 @@ def _axis(name: str, units: dict[str, str]) -> tuple[str, float]:
 
 
 def _scaled(item: Item, x: float, y: float, units: dict[str, str]) -> Item:
-    if isinstance(item, Shade):
-        return replace(item, start=x * item.start, end=x * item.end)
-    if isinstance(item, Upright):
-        return replace(item, x=x * item.x)
-    if isinstance(item, Label):
-        return replace(item, x=x * item.x, y=y * item.y)
-    if isinstance(item, Bars):
-        return replace(item, edges=x * item.edges)
+    factors = {"x": x, "start": x, "end": x, "edges": x, "y": y, "low": y, "high": y}
+    # The end of a line is a label.
+    changes = {
+        name: factors[name] * value
+        for name, value in vars(item).items()
+        if name in factors and not isinstance(value, str)
+    }
     if isinstance(item, Heat):
         name, z = _axis(item.name, units)
-        shown = _times(item.range, z)
-        return replace(item, x=x * item.x, y=y * item.y, z=z * item.z, name=name, range=shown)
-    if isinstance(item, Area):
-        return replace(item, x=x * item.x, low=y * item.low, high=y * item.high)
-    return replace(item, x=x * item.x, y=y * item.y)
+        changes |= {"z": z * item.z, "name": name, "range": _times(item.range, z)}
+    return replace(item, **changes)
 
 
 def _times(ends: tuple[float, float] | None, factor: float) -> Any:

@@ -6,12 +6,12 @@ from typing import TYPE_CHECKING, Any, Literal, TypeAlias
 
 import numpy as np
 
+from .. import _native
 from .._entry import FloatArray
 from .._extras import extra
 from .._report_types import Mode
 from ..errors import refused
 from .chart import colours
-from .saw import pads
 
 if TYPE_CHECKING:
     from matplotlib.animation import FuncAnimation
@@ -52,6 +52,12 @@ def animate(
     if backend == "plotly":
         return _plotly(saw, radius, theta, pictures, title)
     return _matplotlib(saw, radius, theta, pictures, title.replace("<br>", "\n"))
+
+
+def pads(saw: Scene) -> list[FloatArray]:
+    """Closed outlines of the guides, each as x and y."""
+    corners = (np.array(outline) for outline in _native.outlines(saw.to_json()))
+    return [np.vstack([outline, outline[:1]]).T for outline in corners]
 
 
 def _radii(saw: Scene) -> tuple[float, float]:

@@ -37,7 +37,6 @@ use crate::stability::{Analysis, AnalysisError};
 pub(crate) use outline::outline;
 
 use criteria::{of_gaps, without_stiffness};
-#[cfg(feature = "cli")]
 pub(crate) use limits::RIM_LIMIT_M_PER_S;
 pub use limits::{Limits, LimitsFile};
 pub use report::{CheckReport, Criterion, RimStiffness};

@@ -3,8 +3,11 @@
 //! The program, its help, the live page, the Python package and the tests of the documentation read [`COMMANDS`]. All
 //! faces of a report are methods of [`CommandReport`].
 
+mod arguments;
 #[cfg(test)]
 mod golden_tests;
+
+pub use arguments::{Argument, ArgumentKind, CALLS, Call};
 
 use schemars::JsonSchema;
 use schemars::generate::SchemaSettings;

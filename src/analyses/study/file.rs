@@ -152,6 +152,10 @@ pub enum StudyError {
         key: String,
         /// Description of the error, with remedy and line.
         message: String,
+        /// What may be given there, if a key or a value is another.
+        allowed: Option<String>,
+        /// The remedy, if a key or a value is another or missing.
+        remedy: Option<String>,
     },
     /// A value is outside its range.
     #[error(transparent)]
@@ -201,12 +205,18 @@ impl StudyFile {
 
 fn syntax(error: KeyedError) -> StudyError {
     let KeyedError {
-        key, mut message, ..
-    } = error;
-    if error.of_keys {
-        message += "; `sawflutter schema --study` prints the keys and types of a study, and scenes/studies/ has examples";
+        key,
+        message,
+        allowed,
+        remedy,
+        ..
+    } = error.pointing_to("`sawflutter schema --study` prints the keys and types of a study, and scenes/studies/ has examples");
+    StudyError::Syntax {
+        key,
+        message,
+        allowed,
+        remedy,
     }
-    StudyError::Syntax { key, message }
 }
 
 /// The JSON schema of a study file, derived from [`StudyFile`].

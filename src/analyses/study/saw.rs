@@ -135,11 +135,26 @@ impl Study {
         self.found(&scene.swept(SpeedRange::new(0.0, self.to_rad_per_s()))?)
     }
 
+    /// Speeds of the saw without deviations, on a basis of its own: no other saw needs that of the study.
+    ///
+    /// # Errors
+    /// [`GapError`] if the saw cannot be analysed.
+    pub fn own_speeds(&self) -> Result<Found, GapError> {
+        let scene = self
+            .scene()
+            .swept(SpeedRange::new(0.0, self.to_rad_per_s()))?;
+        self.with_onsets(&scene, Onsets::new(&scene)?)
+    }
+
     fn found(&self, scene: &Scene) -> Result<Found, GapError> {
         let onsets = match self.basis() {
             Some(basis) => Onsets::beside(scene, basis)?,
             None => Onsets::new(scene)?,
         };
+        self.with_onsets(scene, onsets)
+    }
+
+    fn with_onsets(&self, scene: &Scene, onsets: Onsets) -> Result<Found, GapError> {
         let evidence = Evidence {
             bands: &onsets.instabilities,
             critical_rad_per_s: &onsets.critical_rad_per_s,

@@ -6,7 +6,7 @@ use crate::analyses::check::{CheckReport, Limits, LimitsFile, RIM_LIMIT_M_PER_S,
 use crate::model::scene::Scene;
 use clap::Args;
 
-use super::common::{Input, number, of_option, say};
+use super::common::{Input, number, of_option, say, words};
 use super::output::OutputFolder;
 use super::page::Page;
 use super::pictures::drawn;
@@ -26,34 +26,31 @@ Exit code: 0 every limit is kept, 1 one is not, 2 the input was refused.";
 pub struct Arguments {
     #[command(flatten)]
     input: Input,
-    /// Speed at which the saw is run; the scene's by default
-    #[arg(long, value_name = "RPM", allow_negative_numbers = true, value_parser = number)]
+    #[arg(long, value_name = "RPM", allow_negative_numbers = true, value_parser = number,
+        help = const { words("check", "operating_rpm") })]
     operating_rpm: Option<f64>,
-    /// Largest share of the first critical speed that the operating speed may be
-    #[arg(
-        long,
+    #[arg(long,
         value_name = "SHARE",
         default_value_t = 0.85,
-        allow_negative_numbers = true, value_parser = number)]
+        allow_negative_numbers = true, value_parser = number,
+        help = const { words("check", "margin") })]
     margin: f64,
-    /// Lower limit of the flutter speed
-    #[arg(long, value_name = "RPM", allow_negative_numbers = true, value_parser = number)]
+    #[arg(long, value_name = "RPM", allow_negative_numbers = true, value_parser = number,
+        help = const { words("check", "min_flutter_rpm") })]
     min_flutter_rpm: Option<f64>,
-    /// Lower limit of the first critical speed
-    #[arg(long, value_name = "RPM", allow_negative_numbers = true, value_parser = number)]
+    #[arg(long, value_name = "RPM", allow_negative_numbers = true, value_parser = number,
+        help = const { words("check", "min_critical_rpm") })]
     min_critical_rpm: Option<f64>,
-    /// Largest speed of the rim
-    #[arg(
-        long,
+    #[arg(long,
         value_name = "M/S",
         default_value_t = RIM_LIMIT_M_PER_S,
-        allow_negative_numbers = true, value_parser = number)]
+        allow_negative_numbers = true, value_parser = number,
+        help = const { words("check", "max_rim_m_per_s") })]
     max_rim_m_per_s: f64,
-    /// Largest deflection in millimetres that flutter may rise to in any band up to the operating speed
-    #[arg(long, value_name = "MM", allow_negative_numbers = true, value_parser = number)]
+    #[arg(long, value_name = "MM", allow_negative_numbers = true, value_parser = number,
+        help = const { words("check", "max_amplitude_m") })]
     max_amplitude_mm: Option<f64>,
-    /// Let a saw pass that has numbers no saw has
-    #[arg(long)]
+    #[arg(long, help = const { words("check", "accept_unusual") })]
     accept_unusual: bool,
     /// Print the result as JSON
     #[arg(long)]

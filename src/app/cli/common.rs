@@ -3,7 +3,7 @@
 use std::io::Write;
 use std::path::{Path, PathBuf};
 
-use crate::analyses::commands::CommandReport;
+use crate::analyses::commands::{Argument, CommandReport};
 use crate::model::scene::{
     Accuracy, RefusedValue, SCENE_TEXT, Scene, SceneError, Setting, quantity,
 };
@@ -101,6 +101,11 @@ fn tolerance_help() -> String {
         shown(allowed.from),
         shown(allowed.to)
     )
+}
+
+/// The meaning of an argument of a command, for the help of its option.
+pub const fn words(command: &str, name: &str) -> &'static str {
+    Argument::of(command, name).about
 }
 
 /// Reads a scene from a file, or from standard input where the path is `-`.

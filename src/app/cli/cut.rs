@@ -1,12 +1,13 @@
 //! `sawflutter cut`.
 
+use crate::analyses::commands::Argument;
 use crate::analyses::cut::cut;
 use crate::model::scene::{AssumedBlock, Scene};
 use clap::Args;
 
 use super::assumption::with_options;
 use super::block_text::pasted;
-use super::common::{Common, number};
+use super::common::{Common, number, words};
 use super::page::Page;
 use super::progress::watched;
 use super::shorthand::Given;
@@ -25,11 +26,10 @@ The forces are the scene's `cut`; `sawflutter schema` says what it may contain."
 pub struct Arguments {
     #[command(flatten)]
     common: Common,
-    /// Speed to cut at, in place of the scene's; may be given more than once
-    #[arg(long, value_name = "RPM", allow_negative_numbers = true, value_parser = number)]
+    #[arg(long, value_name = "RPM", allow_negative_numbers = true, value_parser = number,
+        help = const { words("cut", "rpm") })]
     rpm: Vec<f64>,
-    /// Let the blade stretch where it bends by more than a part of its thickness, as `cut.stretching` does
-    #[arg(long)]
+    #[arg(long, help = const { words("cut", "stretching") })]
     stretching: bool,
     #[command(flatten)]
     forces: Forces,
@@ -41,19 +41,19 @@ pub struct Arguments {
 #[derive(Args)]
 #[command(next_help_heading = "Numbers of the cut, with or without a unit")]
 struct Forces {
-    /// Power of the cut, in W, or like 20kW
-    #[arg(long, value_name = "POWER")]
+    #[arg(long, value_name = "W",
+        help = const { words("cut", "power_w") })]
     power: Option<String>,
-    /// Depth of cut, in m, or like 100mm
-    #[arg(long, value_name = "LENGTH")]
+    #[arg(long, value_name = "M",
+        help = const { words("cut", "depth_m") })]
     depth: Option<String>,
 }
 
 impl Forces {
     fn applied(&self, scene: Scene) -> anyhow::Result<Scene> {
         let given = [
-            Given::new("power", "cut.power_w", &self.power),
-            Given::new("depth", "cut.depth_m", &self.depth),
+            Given::new(&const { Argument::of("cut", "power_w") }, &self.power),
+            Given::new(&const { Argument::of("cut", "depth_m") }, &self.depth),
         ];
         with_options(AssumedBlock::Cut, scene, &given)
     }

@@ -1,9 +1,10 @@
 //! `sawflutter deflect`.
 
+use crate::analyses::commands::Argument;
 use crate::analyses::deflect::{DeflectError, Options, deflect};
 use clap::Args;
 
-use super::common::{Common, number, of_option};
+use super::common::{Common, number, of_option, words};
 use super::page::Page;
 use super::progress::watched;
 use super::shorthand::{Given, with_shorthands};
@@ -24,11 +25,11 @@ the scene's `probe`.";
 pub struct Arguments {
     #[command(flatten)]
     common: Common,
-    /// Constant force across the blade, as `--set side_force.force_n=N`; 1 N in a scene without one
-    #[arg(long, value_name = "N", allow_hyphen_values = true)]
+    #[arg(long, value_name = "N", allow_hyphen_values = true,
+        help = const { words("deflect", "force_n") })]
     force_n: Option<String>,
-    /// Last speed; by default the end of the scene's sweep
-    #[arg(long, value_name = "RPM", allow_negative_numbers = true, value_parser = number)]
+    #[arg(long, value_name = "RPM", allow_negative_numbers = true, value_parser = number,
+        help = const { words("deflect", "to_rpm") })]
     to_rpm: Option<f64>,
     #[command(flatten)]
     page: Page,
@@ -37,8 +38,7 @@ pub struct Arguments {
 /// Follows the equilibria, writes the files and prints the summary.
 pub fn run(arguments: &Arguments) -> anyhow::Result<()> {
     let given = [Given::new(
-        "force-n",
-        "side_force.force_n",
+        &const { Argument::of("deflect", "force_n") },
         &arguments.force_n,
     )];
     let scene = with_shorthands(arguments.common.scene()?, &given)?;

@@ -8,7 +8,7 @@ use crate::page::text::{Kind, OtherEncodings};
 use clap::Args;
 
 use super::bounds::named_bounds;
-use super::common::{Common, count, number, of_option, read_text, refused};
+use super::common::{Common, count, number, of_option, read_text, refused, words};
 use super::page::Page;
 use super::progress::watched;
 
@@ -31,24 +31,22 @@ The calibrated scene is fitted-scene.json.";
 pub struct Arguments {
     #[command(flatten)]
     common: Common,
-    /// Table of measured frequencies; the scene's own without it
+    #[arg(help = const { words("fit", "measured") })]
     measured: Option<PathBuf>,
-    /// A number to fit, by its path in the scene, and its bounds; more than once for more.
-    /// Without any: radius and stiffness of every guide, and angles between several
-    #[arg(long, value_name = "PATH[=FROM..TO]")]
+    #[arg(long, value_name = "PATH[=FROM..TO]",
+        help = const { words("fit", "free") })]
     free: Vec<String>,
-    /// Leave out measurements above this speed
-    #[arg(long, value_name = "RPM", allow_negative_numbers = true, value_parser = number)]
+    #[arg(long, value_name = "RPM", allow_negative_numbers = true, value_parser = number,
+        help = const { words("fit", "to_rpm") })]
     to_rpm: Option<f64>,
-    /// Probability with which the intervals cover the truth
-    #[arg(
-        long,
+    #[arg(long,
         value_name = "SHARE",
         default_value_t = 0.95,
-        allow_negative_numbers = true, value_parser = number)]
+        allow_negative_numbers = true, value_parser = number,
+        help = const { words("fit", "confidence") })]
     confidence: f64,
-    /// Starts: the scene's numbers, and others spread between the bounds
-    #[arg(long, value_name = "COUNT", default_value_t = 12, value_parser = count::<usize>)]
+    #[arg(long, value_name = "COUNT", default_value_t = 12, value_parser = count::<usize>,
+        help = const { words("fit", "starts") })]
     starts: usize,
     #[command(flatten)]
     page: Page,

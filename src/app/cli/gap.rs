@@ -1,9 +1,10 @@
 //! `sawflutter gap`.
 
+use crate::analyses::commands::Argument;
 use crate::analyses::gap::{GapError, Options, gap};
 use clap::Args;
 
-use super::common::{Common, number, of_option};
+use super::common::{Common, number, of_option, words};
 use super::page::Page;
 use super::progress::watched;
 use super::shorthand::{Given, with_shorthands};
@@ -24,24 +25,23 @@ that of the rim at the cut under the scene's `side_force`, by default 1 N there.
 pub struct Arguments {
     #[command(flatten)]
     common: Common,
-    /// Constant side force, as `--set side_force.force_n=N`; 1 N in a scene without one
-    #[arg(long, value_name = "N", allow_hyphen_values = true)]
+    #[arg(long, value_name = "N", allow_hyphen_values = true,
+        help = const { words("gap", "force_n") })]
     force_n: Option<String>,
-    /// Speed of the map; by default the operating speed, or half of the first critical speed
-    #[arg(long, value_name = "RPM", allow_negative_numbers = true, value_parser = number)]
+    #[arg(long, value_name = "RPM", allow_negative_numbers = true, value_parser = number,
+        help = const { words("gap", "rpm") })]
     rpm: Option<f64>,
-    /// Largest deflection at the cut that is allowed
-    #[arg(long, value_name = "MM", allow_negative_numbers = true, value_parser = number)]
+    #[arg(long, value_name = "MM", allow_negative_numbers = true, value_parser = number,
+        help = const { words("gap", "max_deviation_m") })]
     max_deviation_mm: Option<f64>,
-    /// Amplitude of a side force that oscillates, as `--set side_force.oscillating_n=N`: the oscillation of the blade beside its
-    /// deflection. Run-out, flatness and imbalance of the scene's `response` make it oscillate, too
-    #[arg(long, value_name = "N", allow_hyphen_values = true)]
+    #[arg(long, value_name = "N", allow_hyphen_values = true,
+        help = const { words("gap", "oscillating_force_n") })]
     oscillating_force_n: Option<String>,
-    /// Ratio of the frequency of this force to that of rotation, as `--set side_force.order=K`; 1 by default
-    #[arg(long, value_name = "K", allow_hyphen_values = true)]
+    #[arg(long, value_name = "K", allow_hyphen_values = true,
+        help = const { words("gap", "oscillating_order") })]
     oscillating_order: Option<String>,
-    /// Coefficient of friction of the pads, for their heat and the deflection with it, as `--set friction.coefficient=MU`
-    #[arg(long, value_name = "MU", allow_negative_numbers = true)]
+    #[arg(long, value_name = "MU", allow_negative_numbers = true,
+        help = const { words("gap", "friction") })]
     friction: Option<String>,
     #[command(flatten)]
     page: Page,
@@ -50,18 +50,22 @@ pub struct Arguments {
 /// Evaluates the gaps, writes the files and prints the summary.
 pub fn run(arguments: &Arguments) -> anyhow::Result<()> {
     let given = [
-        Given::new("force-n", "side_force.force_n", &arguments.force_n),
         Given::new(
-            "oscillating-force-n",
-            "side_force.oscillating_n",
+            &const { Argument::of("gap", "force_n") },
+            &arguments.force_n,
+        ),
+        Given::new(
+            &const { Argument::of("gap", "oscillating_force_n") },
             &arguments.oscillating_force_n,
         ),
         Given::new(
-            "oscillating-order",
-            "side_force.order",
+            &const { Argument::of("gap", "oscillating_order") },
             &arguments.oscillating_order,
         ),
-        Given::new("friction", "friction.coefficient", &arguments.friction),
+        Given::new(
+            &const { Argument::of("gap", "friction") },
+            &arguments.friction,
+        ),
     ];
     let scene = with_shorthands(arguments.common.scene()?, &given)?;
     let options = Options {

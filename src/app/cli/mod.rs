@@ -206,6 +206,7 @@ fn is_closed_pipe(error: &anyhow::Error) -> bool {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::analyses::commands::{ArgumentKind, CALLS};
 
     /// The commands of examples, in words: continued lines are joined, pipes are split, and comments and
     /// redirections are removed.
@@ -245,6 +246,59 @@ mod tests {
             let asked = with_command(words.iter().map(OsString::from));
             let parsed = Arguments::try_parse_from(asked);
             assert!(parsed.is_ok(), "{words:?}: {}", parsed.err().unwrap());
+        }
+    }
+
+    /// Options of every command: the scene and its changes, and where the results go.
+    const SHARED: [&str; 9] = [
+        "scene",
+        "set",
+        "accuracy",
+        "tolerance",
+        "out",
+        "json",
+        "details",
+        "report",
+        "help",
+    ];
+
+    /// The methods of Python are made from the table, so that they take whatever the command line takes.
+    #[test]
+    fn options_are_those_of_the_table() {
+        let mut program = Arguments::command();
+        program.build();
+        for call in CALLS {
+            let command = program.find_subcommand(call.command).unwrap();
+            let mut options: Vec<String> = command
+                .get_arguments()
+                .map(|option| {
+                    option
+                        .get_long()
+                        .map_or(option.get_id().to_string(), str::to_owned)
+                })
+                .filter(|name| !SHARED.contains(&&**name))
+                .collect();
+            let arguments = || call.arguments.iter().filter(|of| !of.option.is_empty());
+            let mut listed: Vec<&str> = arguments().map(|of| of.option).collect();
+            options.sort_unstable();
+            listed.sort_unstable();
+            assert_eq!(options, listed, "{}", call.command);
+            for argument in arguments() {
+                let default = match argument.kind {
+                    ArgumentKind::Number(number) => number.map(|number| number.to_string()),
+                    ArgumentKind::Count(count) => Some(count.to_string()),
+                    ArgumentKind::Word(words) => words.first().map(ToString::to_string),
+                    _ => None,
+                };
+                let mut of_command = command.get_arguments();
+                let option = of_command.find(|option| {
+                    option.get_long() == Some(argument.option) || option.get_id() == argument.option
+                });
+                let given = option.unwrap().get_default_values().first();
+                let given = given.filter(|_| argument.kind != ArgumentKind::Flag);
+                let given = given.map(|value| value.to_string_lossy().into_owned());
+                assert_eq!(given, default, "{} {}", call.command, argument.name);
+            }
         }
     }
 

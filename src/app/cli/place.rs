@@ -1,11 +1,12 @@
 //! `sawflutter place`.
 
+use crate::analyses::commands::Argument;
 use crate::analyses::place::{Demands, GapDemands, Options, Tolerances, place};
 use crate::model::scene::{Freed, RefusedValue, Scene};
 use clap::{Args, ValueEnum};
 
 use super::bounds::named_bounds;
-use super::common::{Common, count, number, of_option};
+use super::common::{Common, count, number, of_option, words};
 use super::page::Page;
 use super::progress::watched;
 use super::shorthand::{Given, with_shorthands};
@@ -30,51 +31,47 @@ Exit code: 0 done, 1 no tried saw keeps the limit within all its tolerances,
 pub struct Arguments {
     #[command(flatten)]
     common: Common,
-    /// A number to move, by its path in the scene, and its bounds; more than once for more.
-    /// Without any: radius, angle and stiffness of the first guide
-    #[arg(long, value_name = "PATH[=FROM..TO]")]
+    #[arg(long, value_name = "PATH[=FROM..TO]",
+        help = const { words("place", "free") })]
     free: Vec<String>,
-    /// The quantity to maximize
-    #[arg(long, value_name = "NAME", default_value = "flutter")]
+    #[arg(long, value_name = "NAME", default_value = "flutter",
+        help = const { words("place", "goal") })]
     goal: GoalName,
-    /// Lower limit of the first critical speed
-    #[arg(long, value_name = "RPM", allow_negative_numbers = true, value_parser = number)]
+    #[arg(long, value_name = "RPM", allow_negative_numbers = true, value_parser = number,
+        help = const { words("place", "min_critical_rpm") })]
     min_critical_rpm: Option<f64>,
-    /// Amplitude at guides with a gap, with whose mean stiffness bands and critical speeds are computed; without it
-    /// guides have their full stiffness
-    #[arg(long, value_name = "MM", allow_negative_numbers = true, value_parser = number)]
+    #[arg(long, value_name = "MM", allow_negative_numbers = true, value_parser = number,
+        help = const { words("place", "amplitude_m") })]
     amplitude_mm: Option<f64>,
-    /// Upper limit of the deflection at the cut at the operating speed, with the gaps of one-sided guides
-    #[arg(long, value_name = "MM", allow_negative_numbers = true, value_parser = number)]
+    #[arg(long, value_name = "MM", allow_negative_numbers = true, value_parser = number,
+        help = const { words("place", "max_deviation_m") })]
     max_deviation_mm: Option<f64>,
-    /// Constant side force for this limit, as `--set side_force.force_n=N`; 1 N in a scene without one
-    #[arg(
-        long,
+    #[arg(long,
         value_name = "N",
         allow_hyphen_values = true,
-        requires = "max_deviation_mm"
-    )]
+        requires = "max_deviation_mm",
+        help = const { words("place", "force_n") })]
     force_n: Option<String>,
-    /// Saws spread over the bounds at first
-    #[arg(long, value_name = "COUNT", default_value_t = 64, value_parser = count::<usize>)]
+    #[arg(long, value_name = "COUNT", default_value_t = 64, value_parser = count::<usize>,
+        help = const { words("place", "samples") })]
     samples: usize,
-    /// Steps that the refinement of each of the best places may take, each a saw and those around it
-    #[arg(long, value_name = "COUNT", default_value_t = 60, value_parser = count::<u64>)]
+    #[arg(long, value_name = "COUNT", default_value_t = 60, value_parser = count::<u64>,
+        help = const { words("place", "refine") })]
     refine: u64,
-    /// Tolerance of a radius
-    #[arg(long, value_name = "M", default_value_t = Tolerances::USUAL.radius_m, allow_negative_numbers = true, value_parser = number)]
+    #[arg(long, value_name = "M", default_value_t = Tolerances::USUAL.radius_m, allow_negative_numbers = true, value_parser = number,
+        help = const { words("place", "radius_tolerance_m") })]
     radius_tolerance_m: f64,
-    /// Tolerance of an angle
-    #[arg(long, value_name = "DEG", default_value_t = Tolerances::USUAL.angle_deg, allow_negative_numbers = true, value_parser = number)]
+    #[arg(long, value_name = "DEG", default_value_t = Tolerances::USUAL.angle_deg, allow_negative_numbers = true, value_parser = number,
+        help = const { words("place", "angle_tolerance_deg") })]
     angle_tolerance_deg: f64,
-    /// Tolerance of a guide's stiffness, damping or gap, as a share of it
-    #[arg(long, value_name = "SHARE", default_value_t = Tolerances::USUAL.guide_share, allow_negative_numbers = true, value_parser = number)]
+    #[arg(long, value_name = "SHARE", default_value_t = Tolerances::USUAL.guide_share, allow_negative_numbers = true, value_parser = number,
+        help = const { words("place", "guide_tolerance_share") })]
     guide_tolerance_share: f64,
-    /// Tolerance of other numbers, as a share of each
-    #[arg(long, value_name = "SHARE", default_value_t = Tolerances::USUAL.other_share, allow_negative_numbers = true, value_parser = number)]
+    #[arg(long, value_name = "SHARE", default_value_t = Tolerances::USUAL.other_share, allow_negative_numbers = true, value_parser = number,
+        help = const { words("place", "other_tolerance_share") })]
     other_tolerance_share: f64,
-    /// Points of the map along each axis; 0 for none
-    #[arg(long, value_name = "COUNT", default_value_t = 17, value_parser = count::<usize>)]
+    #[arg(long, value_name = "COUNT", default_value_t = 17, value_parser = count::<usize>,
+        help = const { words("place", "map") })]
     map: usize,
     #[command(flatten)]
     page: Page,
@@ -91,8 +88,7 @@ enum GoalName {
 /// Searches for the best place, writes the files and prints the summary. Returns whether the limit is kept.
 pub fn run(arguments: &Arguments) -> anyhow::Result<bool> {
     let given = [Given::new(
-        "force-n",
-        "side_force.force_n",
+        &const { Argument::of("place", "force_n") },
         &arguments.force_n,
     )];
     let scene = with_shorthands(arguments.common.scene()?, &given)?;

@@ -3,7 +3,7 @@
 use crate::analyses::response::{Options, ResponseError, response};
 use clap::Args;
 
-use super::common::{Common, number, of_option};
+use super::common::{Common, number, of_option, words};
 use super::page::Page;
 use super::progress::watched;
 
@@ -23,12 +23,11 @@ imbalance_kg_m2 of the block `response`. Without any, the force is 1 N.";
 pub struct Arguments {
     #[command(flatten)]
     common: Common,
-    /// Speed of the frequency response between force and probe, within the sweep; by default the
-    /// operating speed
-    #[arg(long, value_name = "RPM", allow_negative_numbers = true, value_parser = number)]
+    #[arg(long, value_name = "RPM", allow_negative_numbers = true, value_parser = number,
+        help = const { words("response", "rpm") })]
     rpm: Option<f64>,
-    /// Largest frequency of that; by default that up to which the diagram is complete
-    #[arg(long, value_name = "HZ", allow_negative_numbers = true, value_parser = number)]
+    #[arg(long, value_name = "HZ", allow_negative_numbers = true, value_parser = number,
+        help = const { words("response", "to_hz") })]
     to_hz: Option<f64>,
     #[command(flatten)]
     page: Page,

@@ -1,12 +1,13 @@
 //! `sawflutter runup`.
 
+use crate::analyses::commands::Argument;
 use crate::analyses::runup::runup;
 use crate::model::scene::{AssumedBlock, Scene};
 use clap::Args;
 
 use super::assumption::with_options;
 use super::block_text::pasted;
-use super::common::Common;
+use super::common::{Common, words};
 use super::page::Page;
 use super::progress::watched;
 use super::shorthand::Given;
@@ -25,8 +26,7 @@ Speeds and duration are the scene's `runup`, the force its `side_force` or 1 N,\
 pub struct Arguments {
     #[command(flatten)]
     common: Common,
-    /// Let the blade stretch where it bends by more than a part of its thickness, as `runup.stretching` does
-    #[arg(long)]
+    #[arg(long, help = const { words("runup", "stretching") })]
     stretching: bool,
     #[command(flatten)]
     course: Course,
@@ -39,23 +39,26 @@ pub struct Arguments {
 #[derive(Args)]
 #[command(next_help_heading = "Numbers of the run-up, with or without a unit")]
 struct Course {
-    /// Last speed, in rpm
-    #[arg(long, value_name = "SPEED")]
+    #[arg(long, value_name = "RPM",
+        help = const { words("runup", "to_rpm") })]
     to: Option<String>,
-    /// Time it takes, in s, or like 2min
-    #[arg(long, value_name = "TIME")]
+    #[arg(long, value_name = "S",
+        help = const { words("runup", "duration_s") })]
     seconds: Option<String>,
-    /// Constant side force, in N
-    #[arg(long, value_name = "FORCE", allow_hyphen_values = true)]
+    #[arg(long, value_name = "N", allow_hyphen_values = true,
+        help = const { words("runup", "force_n") })]
     force: Option<String>,
 }
 
 impl Course {
     fn applied(&self, scene: Scene) -> anyhow::Result<Scene> {
         let given = [
-            Given::new("to", "runup.to_rpm", &self.to),
-            Given::new("seconds", "runup.duration_s", &self.seconds),
-            Given::new("force", "side_force.force_n", &self.force),
+            Given::new(&const { Argument::of("runup", "to_rpm") }, &self.to),
+            Given::new(
+                &const { Argument::of("runup", "duration_s") },
+                &self.seconds,
+            ),
+            Given::new(&const { Argument::of("runup", "force_n") }, &self.force),
         ];
         with_options(AssumedBlock::RunUp, scene, &given)
     }

@@ -1,6 +1,7 @@
 //! Options that are short for numbers of a scene.
 
 use super::common::with_settings;
+use crate::analyses::commands::Argument;
 use crate::model::scene::Scene;
 
 /// An option that is short for `--set PATH=…`.
@@ -14,9 +15,12 @@ pub struct Given<'a> {
 }
 
 impl<'a> Given<'a> {
-    pub fn new(option: &'static str, path: &'static str, text: &'a Option<String>) -> Self {
-        let text = text.as_ref();
-        Given { option, path, text }
+    pub fn new(argument: &Argument, text: &'a Option<String>) -> Self {
+        Given {
+            option: argument.option,
+            path: argument.sets,
+            text: text.as_ref(),
+        }
     }
 }
 

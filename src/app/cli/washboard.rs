@@ -4,7 +4,7 @@ use crate::analyses::washboard::washboard;
 use clap::Args;
 
 use super::block_text::pasted;
-use super::common::{Common, number};
+use super::common::{Common, number, words};
 use super::page::Page;
 use super::progress::watched;
 
@@ -21,8 +21,8 @@ says what that may contain.";
 pub struct Arguments {
     #[command(flatten)]
     common: Common,
-    /// Speed to cut at; the scene's operating speed by default
-    #[arg(long, value_name = "RPM", allow_negative_numbers = true, value_parser = number)]
+    #[arg(long, value_name = "RPM", allow_negative_numbers = true, value_parser = number,
+        help = const { words("washboard", "rpm") })]
     rpm: Option<f64>,
     #[command(flatten)]
     page: Page,

@@ -83,6 +83,8 @@ pub use point::Polar;
 pub(crate) use profile::Profile;
 #[cfg(any(test, feature = "page"))]
 pub(crate) use quantities::QUANTITIES;
+#[cfg(feature = "cli")]
+pub(crate) use quantities::is_same;
 pub(crate) use quantities::{quantity, typical_value};
 pub use quantity::{Kind, Quantity, Typical};
 pub(crate) use refusal::Given;

@@ -49,12 +49,18 @@ impl Scene {
 
 fn syntax(error: KeyedError) -> SceneError {
     let KeyedError {
-        key, mut message, ..
-    } = error;
-    if error.of_keys {
-        message += "; `sawflutter schema` prints the keys and types of a scene";
+        key,
+        message,
+        allowed,
+        remedy,
+        ..
+    } = error.pointing_to("`sawflutter schema` prints the keys and types of a scene");
+    SceneError::Syntax {
+        key,
+        message,
+        allowed,
+        remedy,
     }
-    SceneError::Syntax { key, message }
 }
 
 #[cfg(test)]

@@ -176,11 +176,36 @@ pub const QUANTITIES: [Quantity; 101] = [
     q("measured.rows[].frequencies_hz[]", "frequency", "Hz", NOT_NEGATIVE, 0.0, 1e5),
 ];
 
+/// Units by the ends of names, which also the paths of the table have. The longest one counts.
+const ENDINGS: [(&str, &str); 12] = [
+    ("_n_s_per_m", "N·s/m"),
+    ("_n_per_m", "N/m"),
+    ("_m_per_s", "m/s"),
+    ("_per_s", "1/s"),
+    ("rpm", "rpm"),
+    ("_deg", "°"),
+    ("_hz", "Hz"),
+    ("_m", "m"),
+    ("_n", "N"),
+    ("_s", "s"),
+    ("_w", "W"),
+    ("_db", "dB"),
+];
+
 impl Quantity {
     /// The quantity of a path such as `guides[0].radius_m`; `None` if scenes have no such number.
     pub fn of(path: &str) -> Option<&'static Self> {
         let general = general(path);
         QUANTITIES.iter().find(|quantity| quantity.path == general)
+    }
+
+    /// The unit of the number at a path or of an argument, whose name ends in its unit; empty for a number without one.
+    pub fn unit_of(name: &str) -> &'static str {
+        let ending = || ENDINGS.iter().find(|(ending, _)| name.ends_with(ending));
+        match Self::of(name) {
+            Some(quantity) => quantity.unit,
+            None => ending().map_or("", |(_, unit)| unit),
+        }
     }
 
     /// The kind of the number at a path.
@@ -194,19 +219,23 @@ impl Quantity {
 pub(crate) const fn quantity(path: &str) -> Quantity {
     let mut k = 0;
     while k < QUANTITIES.len() {
-        let own = QUANTITIES[k].path.as_bytes();
-        let mut same = own.len() == path.len();
-        let mut at = 0;
-        while same && at < own.len() {
-            same = own[at] == path.as_bytes()[at];
-            at += 1;
-        }
-        if same {
+        if is_same(QUANTITIES[k].path, path) {
             return QUANTITIES[k];
         }
         k += 1;
     }
     panic!("the table of quantities has no such path")
+}
+
+/// Whether two texts are equal, for constants.
+pub(crate) const fn is_same(one: &str, other: &str) -> bool {
+    let (one, other) = (one.as_bytes(), other.as_bytes());
+    let (mut k, mut same) = (0, one.len() == other.len());
+    while same && k < one.len() {
+        same = one[k] == other[k];
+        k += 1;
+    }
+    same
 }
 
 /// The typical value of the quantity with this path, for constants.
@@ -261,6 +290,19 @@ mod tests {
                 assert_eq!(one.kind, other.kind, "{} {}", one.path, other.path);
             }
         }
+    }
+
+    #[test]
+    fn the_end_of_a_name_is_its_unit() {
+        let mut known = 0;
+        for quantity in QUANTITIES {
+            let path = quantity.path.trim_end_matches("[]");
+            if let Some((_, unit)) = ENDINGS.iter().find(|(ending, _)| path.ends_with(ending)) {
+                assert_eq!(*unit, quantity.unit, "{path}");
+                known += 1;
+            }
+        }
+        assert!(known > 60, "{known}");
     }
 
     #[test]

@@ -118,6 +118,10 @@ pub enum SceneError {
         key: String,
         /// Description of the error, with remedy and line.
         message: String,
+        /// What may be given there, if a key or a value is another.
+        allowed: Option<String>,
+        /// The remedy, if a key or a value is another or missing.
+        remedy: Option<String>,
     },
     /// A value is outside its range.
     #[error(transparent)]

@@ -21,8 +21,7 @@ const LIKENESS: f64 = 0.8;
 
 impl Setting {
     /// A setting from a value in the unit of the key.
-    #[cfg(feature = "cli")]
-    pub(crate) fn new(path: String, value: f64) -> Self {
+    pub fn new(path: String, value: f64) -> Self {
         Setting { path, value }
     }
 
@@ -287,9 +286,16 @@ pub(super) fn set(mut json: Value, settings: &[Setting]) -> Result<Scene, SceneE
     let set = Scene::from_json(&json.to_string());
     set.map_err(|error| match error {
         // The text is a single generated line, so its line number is meaningless to the user.
-        SceneError::Syntax { key, message } => SceneError::Syntax {
+        SceneError::Syntax {
+            key,
+            message,
+            allowed,
+            remedy,
+        } => SceneError::Syntax {
             key,
             message: message.trim_end_matches(" (line 1)").to_owned(),
+            allowed,
+            remedy,
         },
         other => other,
     })

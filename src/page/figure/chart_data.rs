@@ -26,7 +26,7 @@ pub struct ChartData {
 
 impl ChartData {
     /// Panels one above the other, without a key.
-    pub(crate) fn new(title: &str, facts: Vec<String>, panels: Vec<PanelData>) -> Self {
+    pub fn new(title: &str, facts: Vec<String>, panels: Vec<PanelData>) -> Self {
         Self {
             title: title.to_owned(),
             facts,
@@ -65,7 +65,7 @@ pub struct PanelData {
 
 impl PanelData {
     /// A panel without a title.
-    pub(crate) fn new(x: AxisData, y: AxisData, items: Vec<Item>) -> Self {
+    pub fn new(x: AxisData, y: AxisData, items: Vec<Item>) -> Self {
         Self {
             title: String::new(),
             colour: Hue::Ink,
@@ -111,7 +111,7 @@ pub struct AxisData {
 
 impl AxisData {
     /// A linear axis whose range is determined by its contents.
-    pub(crate) fn new(name: &str, unit: &str) -> Self {
+    pub fn new(name: &str, unit: &str) -> Self {
         Self {
             name: name.to_owned(),
             unit: unit.to_owned(),
@@ -123,7 +123,7 @@ impl AxisData {
     }
 
     /// The axis with a range.
-    pub(crate) fn within(self, range: [f64; 2]) -> Self {
+    pub fn within(self, range: [f64; 2]) -> Self {
         Self {
             range: Some(range),
             ..self
@@ -131,7 +131,7 @@ impl AxisData {
     }
 
     /// The axis with a scale.
-    pub(crate) fn spread(self, spread: Spread) -> Self {
+    pub fn spread(self, spread: Spread) -> Self {
         Self { spread, ..self }
     }
 
@@ -156,7 +156,7 @@ impl AxisData {
     }
 
     /// The axis of rotation speeds in rpm.
-    pub(crate) fn speed() -> Self {
+    pub fn speed() -> Self {
         Self::new("rotation speed Ω", "rpm")
     }
 }

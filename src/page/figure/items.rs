@@ -125,7 +125,7 @@ pub struct Line {
 
 impl Line {
     /// A solid curve through points.
-    pub(crate) fn new(points: impl IntoIterator<Item = [f64; 2]>, colour: Hue, name: &str) -> Self {
+    pub fn new(points: impl IntoIterator<Item = [f64; 2]>, colour: Hue, name: &str) -> Self {
         let (x, y) = points.into_iter().map(|[x, y]| (x, y)).unzip();
         Self {
             x,
@@ -200,7 +200,7 @@ pub struct Points {
 
 impl Points {
     /// Dots at points, with a diameter of `size`.
-    pub(crate) fn new(
+    pub fn new(
         points: impl IntoIterator<Item = [f64; 2]>,
         colour: Hue,
         size: f64,

@@ -35,6 +35,7 @@ pub use items::{Area, Band, Bars, Heat, Item, Label, Line, Points, Role, Shape, 
 pub use palette::Hue;
 #[doc(hidden)]
 pub use palette::{PALETTE, Palette};
+pub use style::{CURVE, STRONG_CURVE};
 
 /// Error of rendering a figure.
 #[derive(Debug, thiserror::Error)]

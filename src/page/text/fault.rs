@@ -7,9 +7,27 @@ pub(crate) struct KeyedError {
     pub key: String,
     /// Description of the error, and remedy.
     pub message: String,
+    /// What may be given there, if a key or a value is another.
+    pub allowed: Option<String>,
+    /// The remedy within the message, if a key or a value is another.
+    pub remedy: Option<String>,
     /// Whether a list of the known keys helps to correct the error: a key is missing or unknown, or the text
     /// ends too early.
     pub of_keys: bool,
+}
+
+impl KeyedError {
+    /// The error with a sentence that points to a list of the keys, if that helps.
+    pub fn pointing_to(mut self, list: &str) -> Self {
+        if self.of_keys {
+            self.message += &format!("; {list}");
+            self.remedy = Some(match self.remedy {
+                Some(remedy) => format!("{remedy}; {list}"),
+                None => list.to_owned(),
+            });
+        }
+        self
+    }
 }
 
 /// Error of the parser.

@@ -7,6 +7,30 @@ use super::token::{Part, Token, tokens};
 struct Problem {
     key: String,
     message: String,
+    allowed: Option<String>,
+    remedy: Option<String>,
+}
+
+/// What may be given in place of a key or a value, and a remedy.
+struct Advice {
+    allowed: Option<String>,
+    remedy: String,
+}
+
+impl Advice {
+    fn give(allowed: &str) -> Self {
+        Advice {
+            allowed: Some(allowed.to_owned()),
+            remedy: format!("give {allowed}"),
+        }
+    }
+
+    fn only(remedy: impl Into<String>) -> Self {
+        Advice {
+            allowed: None,
+            remedy: remedy.into(),
+        }
+    }
 }
 
 impl Problem {
@@ -14,6 +38,8 @@ impl Problem {
         Problem {
             key: key.into(),
             message: message.into(),
+            allowed: None,
+            remedy: None,
         }
     }
 }
@@ -24,7 +50,12 @@ pub(super) fn explain(text: &str, fault: &Fault, whole: &str) -> KeyedError {
     let words = error.to_string();
     let said = words.split(" at line ").next().unwrap_or_default();
     let line = error.line();
-    let Problem { key, message } = match error.classify() {
+    let Problem {
+        key,
+        message,
+        allowed,
+        remedy,
+    } = match error.classify() {
         _ if text.trim().is_empty() => Problem::at("", "it is empty; give its keys in JSON"),
         _ if !text.trim_start().starts_with('{') => Problem::at("", no_object(text)),
         serde_json::error::Category::Data => of_data(path, said, line),
@@ -35,6 +66,8 @@ pub(super) fn explain(text: &str, fault: &Fault, whole: &str) -> KeyedError {
     KeyedError {
         key: if key.is_empty() { whole.into() } else { key },
         message,
+        allowed,
+        remedy,
         of_keys: error.is_eof()
             || said.starts_with("missing field")
             || said.starts_with("unknown field"),
@@ -95,36 +128,47 @@ fn of_data(path: &str, said: &str, line: usize) -> Problem {
         names.get(1..).unwrap_or_default(),
     );
     let begins = |kind: &str| said.starts_with(kind);
-    let message = if begins("missing field") {
+    let (wrong, advice) = if begins("missing field") {
         return Problem::at(below(path, subject), "it is missing");
     } else if begins("unknown field") {
-        let moved = moved(&below(path, subject));
-        let meant = moved.map_or_else(|| meant(subject, known), str::to_owned);
-        format!("there is no such key; {meant}")
+        let moved = moved(&below(path, subject)).map(Advice::only);
+        let advice = moved.unwrap_or_else(|| meant(subject, known));
+        ("there is no such key".to_owned(), Some(advice))
     } else if begins("duplicate field") {
-        "it is given twice; remove one".to_owned()
+        let advice = Advice::only("remove one");
+        ("it is given twice".to_owned(), Some(advice))
     } else if begins("unknown variant") {
-        format!("{subject:?} is not known; {}", meant(subject, known))
+        (
+            format!("{subject:?} is not known"),
+            Some(meant(subject, known)),
+        )
     } else {
         let found = said
             .strip_prefix("invalid type: ")
             .or_else(|| said.strip_prefix("invalid value: "));
         match found.and_then(|rest| rest.split_once(", expected ")) {
-            Some((found, expected)) => of_type(found, expected),
-            None => said.to_owned(),
+            Some((found, expected)) => return of_type(path, line, found, expected),
+            None => (said.to_owned(), None),
         }
     };
+    let remedy = advice.as_ref().map(|advice| advice.remedy.clone());
+    let beside = remedy.iter().map(|remedy| format!("; {remedy}"));
+    let message = format!("{wrong}{} (line {line})", beside.collect::<String>());
     let of_key = begins("unknown field") || begins("duplicate field");
     let key = if of_key {
         below(path, subject)
     } else {
         path.to_owned()
     };
-    Problem::at(key, format!("{message} (line {line})"))
+    Problem {
+        allowed: advice.and_then(|advice| advice.allowed),
+        remedy,
+        ..Problem::at(key, message)
+    }
 }
 
-/// Message for a value of the wrong type.
-fn of_type(found: &str, expected: &str) -> String {
+/// The problem of a value of the wrong type.
+fn of_type(path: &str, line: usize, found: &str, expected: &str) -> Problem {
     let (kind, value) = found.split_once(' ').unwrap_or((found, ""));
     let is = match kind {
         "string" => format!("the text {value}"),
@@ -149,12 +193,18 @@ fn of_type(found: &str, expected: &str) -> String {
         _ => expected,
     };
     let comma = kind == "string" && first == "f64" && value.contains(',');
-    let remedy = if comma {
-        "; write it with a decimal point and without quotation marks"
+    let (said, remedy) = if comma {
+        let remedy = "write it with a decimal point and without quotation marks";
+        (format!("; {remedy}"), remedy.to_owned())
     } else {
-        ""
+        (String::new(), format!("give {must}"))
     };
-    format!("must be {must} (you gave {is}){remedy}")
+    let message = format!("must be {must} (you gave {is}){said} (line {line})");
+    Problem {
+        allowed: Some(must.to_owned()),
+        remedy: Some(remedy),
+        ..Problem::at(path, message)
+    }
 }
 
 /// Units that users write at the end of a key, the unit of the true key, and the factor between them.
@@ -201,19 +251,24 @@ fn moved(key: &str) -> Option<&'static str> {
 }
 
 /// Suggests the known name that was probably meant, or lists all known names.
-fn meant(subject: &str, known: &[&str]) -> String {
+fn meant(subject: &str, known: &[&str]) -> Advice {
     for (unit, own, factor) in UNITS {
         let stem = subject
             .strip_suffix(unit)
             .filter(|stem| stem.ends_with('_'));
         let name = stem.map(|stem| format!("{stem}{own}"));
         if let Some(name) = name.filter(|name| known.contains(&name.as_str())) {
-            return format!("did you mean {name}? One {unit} is {factor} {own}");
+            return Advice {
+                remedy: format!("did you mean {name}? One {unit} is {factor} {own}"),
+                allowed: Some(name),
+            };
         }
     }
     let small = subject.to_lowercase();
     if small.starts_with('_') || REMARKS.contains(&small.as_str()) {
-        return "write remarks as texts of the list notes at the top, or as comments: // …".into();
+        return Advice::only(
+            "write remarks as texts of the list notes at the top, or as comments: // …",
+        );
     }
     let likeness = |name: &str| {
         let whole =
@@ -226,9 +281,12 @@ fn meant(subject: &str, known: &[&str]) -> String {
         .map(|name| (likeness(name), *name))
         .max_by(|x, y| x.0.total_cmp(&y.0));
     match nearest.filter(|(likeness, _)| *likeness > LIKENESS) {
-        Some((_, name)) => format!("did you mean {name}?"),
-        None if known.is_empty() => "leave it out: nothing can be given here".into(),
-        None => format!("give one of: {}", known.join(", ")),
+        Some((_, name)) => Advice {
+            allowed: Some(name.to_owned()),
+            remedy: format!("did you mean {name}?"),
+        },
+        None if known.is_empty() => Advice::only("leave it out: nothing can be given here"),
+        None => Advice::give(&format!("one of: {}", known.join(", "))),
     }
 }
 
