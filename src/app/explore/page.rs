@@ -35,7 +35,10 @@ files! {
     "parts.js": SCRIPT, "page/parts.js";
     "dock.js": SCRIPT, "page/dock.js";
     "dom.js": SCRIPT, "page/dom.js";
+    "figure.js": SCRIPT, "page/figure.js";
     "form.js": SCRIPT, "page/form.js";
+    "gallery.js": SCRIPT, "page/gallery.js";
+    "hand.js": SCRIPT, "page/hand.js";
     "blade.js": SCRIPT, "page/blade.js";
     "motion.js": SCRIPT, "page/motion.js";
     "charts.js": SCRIPT, "page/charts.js";
@@ -44,6 +47,8 @@ files! {
     "tasks.js": SCRIPT, "page/tasks.js";
     "outline.js": SCRIPT, "page/outline.js";
     "ruler.js": SCRIPT, "page/ruler.js";
+    "relief.js": SCRIPT, "page/relief.js";
+    "toolbar.js": SCRIPT, "page/toolbar.js";
     "waiting.js": SCRIPT, "page/waiting.js";
     "words.js": SCRIPT, "page/words.js";
     "uplot.js": SCRIPT, "../../../assets/uplot/uPlot.iife.min.js";
