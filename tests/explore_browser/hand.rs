@@ -2,7 +2,7 @@
 
 use serde_json::{Value, json};
 
-use crate::browser::{Key, Page, drag, hand, let_go, run};
+use crate::browser::{Page, drag, hand, let_go, run};
 
 impl Page {
     /// Turns the wheel by pixels with the pointer in the middle of an element.
@@ -83,9 +83,11 @@ fn arrow_keys_stay_in_the_picture() {
         let chart = page.find("#campbell").await;
         chart.focus().await.unwrap();
         let [from, to] = [0, 1].map(|end| speeds[end].as_f64().unwrap());
-        for _ in 0..40 {
-            chart.send_keys(Key::Right + "").await.unwrap();
-        }
+        page.script(
+            "for (let k = 0; k < 40; k++) document.querySelector('#campbell')\
+            .dispatchEvent(new KeyboardEvent('keydown', { key: 'ArrowRight', cancelable: true }))",
+        )
+        .await;
         page.wait("document.querySelector('#mode').textContent.includes('Krein')")
             .await;
         let text = page.text("#mode").await;

@@ -149,9 +149,10 @@ fn contrast(first: &Value, second: &Value) -> f64 {
     let luminance = |colour: &Value| -> f64 {
         let linear = |k: usize| {
             let channel = colour[k].as_f64().unwrap() / 255.0;
-            match channel <= 0.03928 {
-                true => channel / 12.92,
-                false => ((channel + 0.055) / 1.055).powf(2.4),
+            if channel <= 0.03928 {
+                channel / 12.92
+            } else {
+                ((channel + 0.055) / 1.055).powf(2.4)
             }
         };
         0.2126 * linear(0) + 0.7152 * linear(1) + 0.0722 * linear(2)

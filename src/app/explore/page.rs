@@ -42,6 +42,7 @@ files! {
     "blade.js": SCRIPT, "page/blade.js";
     "motion.js": SCRIPT, "page/motion.js";
     "charts.js": SCRIPT, "page/charts.js";
+    "colours.js": SCRIPT, "page/colours.js";
     "marks.js": SCRIPT, "page/marks.js";
     "panel.js": SCRIPT, "page/panel.js";
     "tasks.js": SCRIPT, "page/tasks.js";

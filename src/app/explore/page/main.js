@@ -3,12 +3,12 @@
 import { LOST, PLACE } from "./backend.js";
 import { Blade } from "./blade.js";
 import { Charts } from "./charts.js";
+import { publish } from "./colours.js";
 import { describe } from "./fields.js";
 import { Form } from "./form.js";
 import { offerExamples, welcome } from "./gallery.js";
 import { Files } from "./files.js";
 import { Kept } from "./kept.js";
-import { publish } from "./marks.js";
 import { Live } from "./live.js";
 import { facts, outline, verdict } from "./outline.js";
 import { imageOf } from "./pairs.js";

@@ -1,42 +1,11 @@
-// Colours of the figures, which are lighter on a dark page, and the drawing of the items of a chart on a canvas.
+// Drawing of the items of a chart on a canvas.
 
+import { DARK_PAPER, css, mix } from "./colours.js";
 import { shown } from "./words.js";
 
 const DASH = [6, 4];
 const FINE_DASH = [4, 4];
 const FONT = "Inter, Helvetica, Arial, sans-serif";
-const DARK_PAPER = [22, 25, 30];
-const WHITE = [255, 255, 255];
-
-const mix = (a, b, share) => a.map((channel, i) => Math.round(channel * share + b[i] * (1 - share)));
-const css = (/** @type {number[]} */ [r, g, b]) => `rgb(${r}, ${g}, ${b})`;
-
-// Returns the colours of the page as CSS. Printed paper has those of a light page.
-function theme(colours, onPaper = false) {
-  const dark = !onPaper && matchMedia("(prefers-color-scheme: dark)").matches;
-  const chosen = {};
-  for (const [name, colour] of Object.entries(colours)) {
-    // On a dark page, lines and letters are lightened for contrast, and shades are darkened.
-    if (!dark) chosen[name] = css(colour);
-    else if (name.endsWith("_shade")) chosen[name] = css(mix(colours[name.replace("_shade", "")], DARK_PAPER, 0.55));
-    else if (name.endsWith("_streak")) chosen[name] = css(mix(colour, DARK_PAPER, 0.6));
-    else chosen[name] = css(mix(colour, WHITE, 0.52));
-  }
-  if (dark) {
-    Object.assign(chosen, { paper: css(DARK_PAPER), ink: "rgb(232, 235, 239)", quiet: "rgb(158, 165, 175)", grid: "rgb(44, 49, 57)" });
-  }
-  return { ...chosen, dark };
-}
-
-// Sets the colours of the page as custom properties for the style sheet, and returns them.
-export function publish(colours, onPaper) {
-  const chosen = theme(colours, onPaper);
-  for (const [name, colour] of Object.entries(chosen)) {
-    document.documentElement.style.setProperty(`--${name.replaceAll("_", "-")}`, String(colour));
-  }
-  return chosen;
-}
-
 // Draws the items of a chart on one of its panels. `x` and `y` convert values to canvas pixels, `box` is the panel in
 // canvas pixels, and `scale` is the number of canvas pixels for each pixel of the page.
 export class Painter {

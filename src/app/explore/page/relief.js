@@ -1,8 +1,8 @@
 // Draws a moving mode as a tilted blade with exaggerated bending, by WebGL2: one grid over radius and angle, whose
 // deflection w(r, θ, t) = Re Σ (c(r) cos nθ + s(r) sin nθ) e^{iωt} the graphics card takes from a texture.
 
-const RINGS = 24;
-const STEPS = 720;
+const RINGS = 16;
+const STEPS = 480;
 const TILT_DEG = 52;
 // Largest deflection, and half the height of a pad, as shares of half the width of the picture.
 const BENDING = 0.2;
@@ -33,16 +33,16 @@ float deflection(float share, float angle) {
   return (sum.x * phase.x - sum.y * phase.y) * scale;
 }
 vec3 placed(float share, float angle) {
+  w = deflection(share, angle);
   float tooth = teeth > 2.0 ? fract((angle - turn) * teeth / 6.2831853) : 1.0;
   float gullet = depth * (tooth < 0.62 ? 1.0 - tooth / 0.62 : 1.0) * step(2.5, teeth);
   float r = mix(rim.x, rim.y, share) - gullet * step(0.999, share);
-  return vec3(r * cos(angle), r * sin(angle), ${BENDING} * deflection(share, angle));
+  return vec3(r * cos(angle), r * sin(angle), ${BENDING} * w);
 }
 void main() {
   vec3 p = at;
   if (isBlade) {
     p = placed(at.x, at.y);
-    w = deflection(at.x, at.y);
     polar = vec2(at.x, mod(at.y - turn, 6.2831853));
   }
   place = p;
