@@ -114,5 +114,9 @@ export async function ask(path, options = undefined) {
   return queueOf(path).ask(question, signal);
 }
 
+// Words after the time of a computation, and for one that has no answer.
+export const PLACE = " in this browser";
+export const LOST = "This browser has ended the computation. Save the scene and load the page again.";
+
 // There is no server that has to know when the page is closed.
 export const leave = () => true;

@@ -106,16 +106,11 @@ fn another_saw_takes_the_place_of_an_edited_one_only_when_asked() {
     run(async {
         let page = Page::open(&["--accuracy", "draft"]).await;
         page.settle().await;
-        let choose = |k: usize| {
-            format!(
-                "document.getElementById('examples').value = {k}, document.getElementById('examples').dispatchEvent(new Event('change'))"
-            )
-        };
         let name = "sawflutter.state.scene.name";
         page.script("window.asked = 0; window.answer = false; window.confirm = () => { window.asked += 1; return window.answer; }")
             .await;
         // A saw without edits is replaced without a question.
-        page.script(&choose(2)).await;
+        page.open_example(2).await;
         page.settle().await;
         let opened = page.value(name).await;
         assert_eq!(page.value("window.asked").await, json!(0));
@@ -124,10 +119,10 @@ fn another_saw_takes_the_place_of_an_edited_one_only_when_asked() {
         page.enter("blade.thickness_m", "3.1").await;
         page.settle().await;
         assert!(page.text("#facts").await.contains(" → "));
-        page.script(&choose(1)).await;
+        page.open_example(1).await;
         assert_eq!(page.value(name).await, opened);
         page.script("window.answer = true").await;
-        page.script(&choose(1)).await;
+        page.open_example(1).await;
         page.settle().await;
         assert_ne!(page.value(name).await, opened);
         assert_eq!(page.value("window.asked").await, json!(2));
@@ -215,6 +210,15 @@ fn a_program_that_is_started_again_takes_the_page_over() {
         page.settle().await;
         page.program.0.kill().unwrap();
         page.wait("!document.querySelector('#lost').hidden").await;
+        // The banner stays in sight.
+        page.script("scrollTo(0, 300)").await;
+        let top = "document.querySelector('#lost').getBoundingClientRect().top >= 0";
+        assert_eq!(page.value(top).await, json!(true));
+        page.open_tab_of("place").await;
+        page.script("document.querySelector('#panel-place .start button').click()")
+            .await;
+        page.wait("document.querySelector('#panel-place .fault').textContent !== ''")
+            .await;
         page.enter("blade.thickness_m", "3").await;
         let told = "document.getElementById('blade.thickness_m:fault').textContent";
         page.wait(&format!("{told}.includes('does not answer')"))
@@ -227,6 +231,9 @@ fn a_program_that_is_started_again_takes_the_page_over() {
         page.settle().await;
         assert!(page.text("#facts").await.contains(" → "));
         assert_eq!(page.text("#fault").await, "");
+        assert_eq!(page.text("#panel-place .fault").await, "");
+        page.script("document.querySelector('#tab-chart').click()")
+            .await;
         page.step_to_a_mode().await;
         page.close().await;
     });
@@ -288,24 +295,42 @@ fn a_saw_is_saved_to_the_file_that_the_program_was_started_with() {
         page.enter("blade.thickness_m", "3.1").await;
         page.settle().await;
         save.click().await.unwrap();
-        page.wait("document.querySelector('#fault').textContent.includes('another program has changed it')")
+        page.wait("!document.querySelector('#conflict').hidden")
             .await;
         assert_eq!(read(), paper);
+        let told = page.text("#conflict span").await;
+        assert_eq!(told, "Another program has changed my-saw.json.");
+        page.find("#overwrite").await.click().await.unwrap();
+        page.wait("document.querySelector('#write').disabled").await;
+        let saved: Value = serde_json::from_str(&read()).unwrap();
+        assert_eq!(saved["blade"]["thickness_m"], json!(0.0031));
+
+        std::fs::write(&path, paper).unwrap();
+        page.enter("blade.thickness_m", "3.2").await;
+        page.settle().await;
+        save.click().await.unwrap();
+        page.wait("!document.querySelector('#conflict').hidden")
+            .await;
+        page.script("window.confirm = () => true").await;
+        page.find("#load").await.click().await.unwrap();
+        page.wait("sawflutter.state.scene.blade.thickness_m === 0.0028")
+            .await;
+        page.settle().await;
+        page.wait("document.querySelector('#write').disabled").await;
+        assert_eq!(read(), paper);
+        page.enter("blade.thickness_m", "3.3").await;
+        page.settle().await;
 
         let mut permissions = folder.path().metadata().unwrap().permissions();
         permissions.set_readonly(true);
         std::fs::set_permissions(folder.path(), permissions).unwrap();
-        std::fs::write(&path, serde_json::to_string_pretty(&saved).unwrap() + "\n").unwrap();
         save.click().await.unwrap();
         page.wait("document.querySelector('#fault').textContent.includes('is read-only')")
             .await;
 
         // The button is hidden for another saw, which must not overwrite this one.
-        page.script(
-            "window.confirm = () => true; document.getElementById('examples').value = 1; \
-            document.getElementById('examples').dispatchEvent(new Event('change'))",
-        )
-        .await;
+        page.script("window.confirm = () => true").await;
+        page.open_example(1).await;
         page.settle().await;
         assert_eq!(
             page.value("document.querySelector('#write').hidden").await,

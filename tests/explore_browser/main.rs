@@ -8,9 +8,12 @@
 mod browser;
 mod chart;
 mod form;
+mod hand;
 mod kept;
 mod looks;
+mod meaning;
 mod pace;
+mod parts;
 mod tabs;
 mod tasks;
 mod without_server;

@@ -5,13 +5,51 @@ use serde_json::{Value, json};
 use crate::browser::{Page, run, same};
 
 impl Page {
+    /// Clicks on the map over thickness, from 2.24 to 3.36 mm, and speed, up to 1800 rpm, at a quarter of both axes.
+    async fn is_set_by_a_click_on_the_map(&self) {
+        self.script(
+            "window.written = []; const own = CanvasRenderingContext2D.prototype.fillText; \
+            CanvasRenderingContext2D.prototype.fillText = function (text, ...at) { \
+                written.push(text); return own.call(this, text, ...at); }; \
+            document.querySelector('#inches').click()",
+        )
+        .await;
+        // The map is in the units of the form.
+        self.wait("written.includes('thickness of the blade [in]')")
+            .await;
+        self.script("document.querySelector('#inches').click()")
+            .await;
+        // The lower edge of the panel is the longest line of the canvas row.
+        let place = "((canvas) => { \
+            const [scale, bottom] = [devicePixelRatio, canvas.height - 40 * devicePixelRatio]; \
+            const row = canvas.getContext('2d').getImageData(0, bottom, canvas.width, 1).data; \
+            const isInked = (k) => row[4 * k + 3] > 100; \
+            const isLong = (k) => Array.from({ length: 30 }, (_, next) => k + next).every(isInked); \
+            const inked = Array.from({ length: canvas.width }, (_, k) => k).filter(isLong); \
+            return [inked[0], inked.at(-1) + 29, bottom].map((at) => at / scale); \
+            })(document.querySelector('#panel-map .answer canvas'))";
+        let place = self.value(place).await;
+        let [left, right, bottom]: [f64; 3] = serde_json::from_value(place).unwrap();
+        let click = format!(
+            "const canvas = document.querySelector('#panel-map .answer canvas'); \
+             const box = canvas.getBoundingClientRect(); \
+             canvas.dispatchEvent(new MouseEvent('click', {{ clientX: box.left + {}, clientY: box.top + {} }}))",
+            0.75 * left + 0.25 * right,
+            bottom - 75.0
+        );
+        self.script(&click).await;
+        let set = "[1e3 * sawflutter.state.scene.blade.thickness_m, sawflutter.state.scene.operating_rpm]";
+        let [thickness_mm, rpm]: [f64; 2] = serde_json::from_value(self.value(set).await).unwrap();
+        assert!((thickness_mm - 2.52).abs() < 0.01, "{thickness_mm}");
+        assert!((rpm - 450.0).abs() < 15.0, "{rpm}");
+        // The map contains the new saw, so that it is not one of an earlier scene.
+        let old = "document.querySelector('#panel-map .answer').classList.contains('earlier')";
+        assert_eq!(self.value(old).await, json!(false));
+    }
+
     /// Starts the computation of a tab and waits for its answer.
     pub async fn compute(&self, tab: &str) {
-        self.find(&format!("#tab-{tab}"))
-            .await
-            .click()
-            .await
-            .unwrap();
+        self.open_tab_of(tab).await;
         let start = self.find(&format!("#panel-{tab} .start button")).await;
         start.click().await.unwrap();
         self.wait(&format!("!!document.querySelector('#panel-{tab} pre')"))
@@ -40,7 +78,7 @@ fn a_cut_is_the_one_that_the_command_line_finds() {
         assert!(first[1].starts_with("2800 rpm: UNSTABLE, growth of "));
         assert_eq!(first.last().unwrap(), "leaves the linear model");
         let pictures = page
-            .value("[...document.querySelectorAll('#panel-cut img')].filter((i) => i.naturalWidth > 0).length")
+            .value("[...document.querySelectorAll('#panel-cut .answer canvas')].filter((canvas) => canvas.width > 0).length")
             .await;
         assert!(pictures.as_u64().unwrap() >= 2, "{pictures}");
 
@@ -61,7 +99,7 @@ fn a_cheap_answer_starts_by_itself() {
         let scene = concat!(env!("CARGO_MANIFEST_DIR"), "/scenes/collar-400mm.json");
         let page = Page::open(&[scene, "--accuracy", "draft"]).await;
         page.settle().await;
-        page.find("#tab-response").await.click().await.unwrap();
+        page.open_tab_of("response").await;
         let told = "document.querySelector('#panel-response pre')?.textContent ?? ''";
         page.wait(&format!(
             "({told}).includes('Sawing deviation at 3800 rpm')"
@@ -88,7 +126,7 @@ fn a_fit_is_taken_over_and_a_missing_part_is_added() {
         page.settle().await;
         page.value("sawflutter.state.set('runup', undefined, { structure: true })")
             .await;
-        page.find("#tab-runup").await.click().await.unwrap();
+        page.open_tab_of("runup").await;
         let disabled = "document.querySelector('#panel-runup .start button').disabled";
         assert_eq!(page.value(disabled).await, json!(true));
         let missing = page.find("#panel-runup .remark button").await;
@@ -127,7 +165,7 @@ fn a_response_a_gap_and_a_map_are_those_of_the_command_line() {
         std::fs::write(&path, scene.to_string()).unwrap();
         let page = Page::open(&[path.to_str().unwrap()]).await;
         page.settle().await;
-        page.find("#tab-gap").await.click().await.unwrap();
+        page.open_tab_of("gap").await;
         let disabled = "document.querySelector('#panel-gap .start button').disabled";
         assert_eq!(page.value(disabled).await, json!(true));
         page.script(
@@ -146,10 +184,11 @@ fn a_response_a_gap_and_a_map_are_those_of_the_command_line() {
             let (_, printed) = page.command(command).await;
             assert!(printed.starts_with(shown.trim_end()), "{shown}\n{printed}");
             let pictures = format!(
-                "[...document.querySelectorAll('#panel-{tab} .answer img')].filter((i) => i.naturalWidth > 0).length"
+                "[...document.querySelectorAll('#panel-{tab} .answer canvas')].filter((canvas) => canvas.width > 0).length"
             );
             assert!(page.value(&pictures).await.as_u64().unwrap() >= 1, "{tab}");
         }
+        page.is_set_by_a_click_on_the_map().await;
         page.close().await;
     });
 }
@@ -160,7 +199,7 @@ fn a_task_reports_its_progress_and_can_be_stopped() {
     run(async {
         let page = Page::open(&["--accuracy", "draft"]).await;
         page.settle().await;
-        page.find("#tab-study").await.click().await.unwrap();
+        page.open_tab_of("study").await;
         page.find("#panel-study .start button")
             .await
             .click()
@@ -202,7 +241,7 @@ fn a_placement_tells_its_steps_and_ends_with_the_figure_of_the_command_line() {
         std::fs::write(&path, scene.to_string()).unwrap();
         let page = Page::open(&[path.to_str().unwrap()]).await;
         page.settle().await;
-        page.find("#tab-place").await.click().await.unwrap();
+        page.open_tab_of("place").await;
         let start = page.find("#panel-place .start button").await;
         start.click().await.unwrap();
         let told = "document.querySelector('#panel-place .start .remark').textContent";
@@ -274,7 +313,7 @@ fn inches_and_examples_show_the_same_saws() {
             .await;
 
         // A tolerance in a field keeps its length when the unit changes.
-        page.find("#tab-study").await.click().await.unwrap();
+        page.open_tab_of("study").await;
         page.enter("study:blade.thickness_m", "0.254").await;
         page.script("document.querySelector('#inches').click()")
             .await;
@@ -291,14 +330,11 @@ fn inches_and_examples_show_the_same_saws() {
 
         // An example from the menu can be computed.
         let count = page
-            .value("document.querySelectorAll('#examples option').length - 1")
+            .value("document.querySelectorAll('#examples .card').length")
             .await;
         page.script("window.confirm = () => true").await;
-        for k in [1, count.as_u64().unwrap() - 1] {
-            page.value(&format!(
-                "(document.getElementById('examples').value = {k}, document.getElementById('examples').dispatchEvent(new Event('change')))"
-            ))
-            .await;
+        for k in [1, count.as_u64().unwrap() as usize - 1] {
+            page.open_example(k).await;
             page.settle().await;
             assert_eq!(page.text("#fault").await, "");
         }
@@ -330,11 +366,7 @@ fn a_task_that_cannot_be_done_says_why_in_the_words_of_the_form() {
             ),
         ];
         for (tab, script, wanted) in cases {
-            page.find(&format!("#tab-{tab}"))
-                .await
-                .click()
-                .await
-                .unwrap();
+            page.open_tab_of(tab).await;
             page.script(script).await;
             let start = page.find(&format!("#panel-{tab} .start button")).await;
             start.click().await.unwrap();
@@ -347,7 +379,7 @@ fn a_task_that_cannot_be_done_says_why_in_the_words_of_the_form() {
         }
         page.script("sawflutter.state.undo(); sawflutter.state.set('measured', undefined)")
             .await;
-        page.find("#tab-fit").await.click().await.unwrap();
+        page.open_tab_of("fit").await;
         let disabled = "document.querySelector('#panel-fit .start button').disabled";
         assert_eq!(page.value(disabled).await, json!(true));
         let told = page.text("#panel-fit").await;

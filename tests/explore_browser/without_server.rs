@@ -88,6 +88,35 @@ fn charts_files_and_tasks_are_those_of_the_program() {
     });
 }
 
+/// The folder can be put on any server: its policy is in the page, its modules are one file, and it names no program.
+#[test]
+#[ignore = "needs chromium, chromium-driver and the folder of web/build; run by .ci/web"]
+fn the_folder_is_complete_and_speaks_of_the_browser() {
+    run(async {
+        let page = Page::open_folder(&folder()).await;
+        page.settle().await;
+        let told = page.text("#computed").await;
+        assert!(told.ends_with(" ms in this browser"), "{told}");
+        let scripts = "performance.getEntriesByType('resource').map(({ name }) => name.split('/').at(-1)).filter((name) => name.endsWith('.js')).sort()";
+        let found = page.value(scripts).await;
+        assert_eq!(
+            found,
+            serde_json::json!(["main.js", "uplot.js", "worker.js"])
+        );
+        let policy = "document.querySelector('[http-equiv=Content-Security-Policy]').content";
+        let policy = page.value(policy).await;
+        assert!(
+            policy.as_str().unwrap().starts_with("default-src 'none'"),
+            "{policy}"
+        );
+        // A script of the page itself is not run.
+        page.script("const made = document.createElement('script'); made.textContent = 'window.injected = true'; document.body.append(made)")
+            .await;
+        assert_eq!(page.value("window.injected ?? false").await, false);
+        page.close().await;
+    });
+}
+
 /// An outdated computation is ended with its worker, and the next one is answered.
 #[test]
 #[ignore = "needs chromium, chromium-driver and the folder of web/build; run by .ci/web"]

@@ -99,8 +99,8 @@ impl Ruler {
 /// First critical speed and ratio of the operating speed to it.
 pub fn of_critical(first_rpm: Option<f64>, share: Option<f64>) -> [Fact; 2] {
     [
-        speed("First critical", first_rpm),
-        Fact::new("Of critical", PERCENT.fixed(1, share)),
+        speed("First critical speed", first_rpm),
+        Fact::new("Of critical speed", PERCENT.fixed(1, share)),
     ]
 }
 
@@ -109,16 +109,17 @@ fn speed(name: &str, rpm: Option<f64>) -> Fact {
     Fact::new(name, SPEED.fixed(decimals, rpm).or("none"))
 }
 
-/// Flutter speed, onset of the first flutter band, and largest growth rate.
+/// Flutter speed, onset of the weak flutter below it, and largest growth rate.
 pub fn of_bands(
     [flutter_rpm, first_merge_rpm]: [Option<f64>; 2],
     peak_growths_per_s: impl Iterator<Item = f64>,
 ) -> [Fact; 3] {
     let growth = GROWTH.digits(3, peak_growths_per_s.fold(0.0, f64::max));
+    let weak_rpm = first_merge_rpm.filter(|first| Some(*first) != flutter_rpm);
     [
         speed("Flutter speed", flutter_rpm),
-        speed("First merging", first_merge_rpm),
-        Fact::new("Fastest growth", growth),
+        speed("Weak flutter", weak_rpm),
+        Fact::new("Largest growth rate", growth),
     ]
 }
 
@@ -201,7 +202,7 @@ mod tests {
             let fact = facts.iter().find(|fact| fact.name == name);
             fact.unwrap().in_words()
         };
-        assert_eq!(words("First critical"), "1531 rpm");
-        assert_eq!(words("Of critical"), "32.7 %");
+        assert_eq!(words("First critical speed"), "1531 rpm");
+        assert_eq!(words("Of critical speed"), "32.7 %");
     }
 }

@@ -48,9 +48,7 @@ fn text(headers: &HeaderMap, name: header::HeaderName) -> Option<&str> {
 }
 
 /// The page loads everything from this server, and injected scripts do not run.
-const POLICY: &str = "default-src 'none'; script-src 'self'; style-src 'self' 'unsafe-inline'; \
-    font-src 'self'; img-src 'self' data: blob:; connect-src 'self'; base-uri 'none'; \
-    form-action 'none'; frame-ancestors 'none'";
+const POLICY: &str = include_str!("page/policy.txt").trim_ascii();
 
 /// Refuses foreign requests and sends the content policy.
 pub async fn guard(State(hosts): State<OwnHosts>, request: Request, next: Next) -> Response {

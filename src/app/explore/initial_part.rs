@@ -6,6 +6,8 @@ use crate::model::scene::{
 };
 
 const LEAST_TEETH: f64 = 12.0;
+/// Gap of a guide in m, which is also the example in the message for a missing one.
+pub const USUAL_GAP_M: f64 = 4e-5;
 /// Spline of the saw in the paper, with assumed values for the numbers that the paper does not give.
 pub const SPLINE: SplineFile = SplineFile {
     teeth: 20,

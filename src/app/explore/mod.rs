@@ -11,6 +11,7 @@ mod early_answer;
 mod entry;
 mod examples;
 mod fields;
+mod glossary;
 #[cfg(feature = "explore")]
 mod guard;
 mod influence;

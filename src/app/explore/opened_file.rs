@@ -6,7 +6,28 @@ use std::sync::{Mutex, PoisonError};
 
 use super::refusal::Refusal;
 use super::reply::FileNote;
-use crate::model::scene::Scene;
+use crate::model::scene::{Scene, SceneError};
+
+/// Reason for which a scene is not saved.
+#[derive(Debug)]
+pub enum Unsaved {
+    /// Another program has changed the file, which now has this content.
+    Changed(String),
+    /// The scene is not valid, or the file cannot be written.
+    Refused(Refusal),
+}
+
+impl From<Refusal> for Unsaved {
+    fn from(refusal: Refusal) -> Self {
+        Unsaved::Refused(refusal)
+    }
+}
+
+impl From<SceneError> for Unsaved {
+    fn from(error: SceneError) -> Self {
+        Unsaved::Refused(error.into())
+    }
+}
 
 /// A scene file and its content as it was last read or written here.
 #[derive(Debug)]
@@ -37,8 +58,9 @@ impl OpenedFile {
     /// Saves a scene. The file is replaced as a whole or does not change.
     ///
     /// # Errors
-    /// [`Refusal`] if the scene is not valid, another program has changed the file, or it cannot be written.
-    pub fn save(&self, scene: &str) -> Result<(), Refusal> {
+    /// [`Unsaved::Changed`] if another program has changed the file; the next call overwrites it, because the user knows of
+    /// the change. [`Unsaved::Refused`] if the scene is not valid or the file cannot be written.
+    pub fn save(&self, scene: &str) -> Result<(), Unsaved> {
         let scene = Scene::from_json(scene)?;
         let text = serde_json::to_string_pretty(scene.file()).map_err(|e| Refusal::of(&e))? + "\n";
         let mut known = self.known.lock().unwrap_or_else(PoisonError::into_inner);
@@ -50,10 +72,12 @@ impl OpenedFile {
         };
         match std::fs::read(&self.path) {
             Ok(present) if present != *known => {
-                return Err(refused("another program has changed it".to_owned()));
+                let text = String::from_utf8_lossy(&present).into_owned();
+                *known = present;
+                return Err(Unsaved::Changed(text));
             }
             Err(error) if error.kind() != std::io::ErrorKind::NotFound => {
-                return Err(refused(error.to_string()));
+                return Err(refused(error.to_string()).into());
             }
             _ => (),
         }
@@ -99,6 +123,13 @@ mod tests {
         serde_json::to_string(Scene::paper().file()).unwrap()
     }
 
+    fn refused(saved: Result<(), Unsaved>) -> String {
+        match saved {
+            Err(Unsaved::Refused(refusal)) => refusal.message,
+            other => panic!("{other:?}"),
+        }
+    }
+
     #[test]
     fn a_file_is_replaced_as_a_whole_or_not_at_all() {
         let folder = tempfile::tempdir().unwrap();
@@ -115,16 +146,17 @@ mod tests {
             Scene::paper().file()
         );
 
-        let refusal = file.save("{}").unwrap_err();
-        assert!(refusal.message.contains("name"), "{}", refusal.message);
+        let message = refused(file.save("{}"));
+        assert!(message.contains("name"), "{message}");
         std::fs::write(&path, "by another program").unwrap();
-        let of_changed = file.save(&paper()).unwrap_err();
-        assert!(
-            of_changed.message.contains("another program"),
-            "{}",
-            of_changed.message
-        );
+        let Err(Unsaved::Changed(text)) = file.save(&paper()) else {
+            panic!("the change was not noticed");
+        };
+        assert_eq!(text, "by another program");
         assert_eq!(std::fs::read(&path).unwrap(), b"by another program");
+        // The user has been told of the change.
+        file.save(&paper()).unwrap();
+        assert_ne!(std::fs::read(&path).unwrap(), b"by another program");
         let count = std::fs::read_dir(folder.path()).unwrap().count();
         assert_eq!(count, 1);
     }
@@ -139,16 +171,12 @@ mod tests {
         let mut permissions = folder.path().metadata().unwrap().permissions();
         permissions.set_readonly(true);
         std::fs::set_permissions(folder.path(), permissions).unwrap();
-        let refusal = file.save(&paper()).unwrap_err();
+        let message = refused(file.save(&paper()));
         let told = format!(
             "{} was not saved: the folder",
             path.canonicalize().unwrap().display()
         );
-        assert!(refusal.message.starts_with(&told), "{}", refusal.message);
-        assert!(
-            refusal.message.contains("is read-only"),
-            "{}",
-            refusal.message
-        );
+        assert!(message.starts_with(&told), "{message}");
+        assert!(message.contains("is read-only"), "{message}");
     }
 }

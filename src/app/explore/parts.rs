@@ -3,15 +3,15 @@
 use serde::Deserialize;
 
 use super::initial_part::{
-    SPLINE, between, guide, inner, mount, next_row, rim, side_force, usual_teeth,
+    SPLINE, USUAL_GAP_M, between, guide, inner, mount, next_row, rim, side_force, usual_teeth,
 };
 use super::refusal::Refusal;
 use crate::model::scene::typical_block::rounded;
 use crate::model::scene::{
-    CutFile, CutSpeedFile, DampingFile, ExcitationFile, FrictionFile, ModeRatioRow, ProbeFile,
-    ResidualStressRow, ResponseFile, RimFile, RollBandFile, Scene, SceneFile, StraightEdgeFile,
-    SweepFile, TemperatureFile, TemperatureRow, ThicknessRow, WoodFile, typical_block,
-    typical_value,
+    ContactLaw, CutFile, CutSpeedFile, DampingFile, ExcitationFile, FrictionFile, ModeRatioRow,
+    ProbeFile, ResidualStressRow, ResponseFile, RimFile, RollBandFile, Scene, SceneFile,
+    StraightEdgeFile, SweepFile, TemperatureFile, TemperatureRow, ThicknessRow, WoodFile,
+    typical_block, typical_value,
 };
 
 /// A request for a part.
@@ -84,12 +84,22 @@ fn add(scene: &mut SceneFile, path: &str, kind: &str) -> Option<()> {
             });
         }
         _ => match path.split_once('.').unwrap_or((path, "")) {
+            (guide, "gap_m") => add_gap(scene, guide)?,
             ("blade", part) => add_to_blade(scene, part)?,
             ("cut", part) => add_to_cut(scene, part)?,
             ("membrane", part) => add_to_membrane(scene, part)?,
             _ => return None,
         },
     }
+    Some(())
+}
+
+/// Adds a gap to the guide named like `guides[0]`, which then lifts off.
+fn add_gap(scene: &mut SceneFile, guide: &str) -> Option<()> {
+    let index = guide.strip_prefix("guides[")?.strip_suffix(']')?;
+    let pad = scene.guides.get_mut(index.parse::<usize>().ok()?)?;
+    pad.contact = ContactLaw::OneSided;
+    pad.gap_m.get_or_insert(USUAL_GAP_M);
     Some(())
 }
 

@@ -1,11 +1,13 @@
 //! Replies to the page other than diagrams: initial data and files.
 
+use std::collections::BTreeMap;
 use std::sync::Arc;
 
 use serde::Serialize;
 
 use super::examples::examples;
 use super::fields::Field;
+use super::glossary::glossary;
 use super::needs::{NEEDS, Need};
 use super::refusal::Refusal;
 use super::tolerances::{USUAL, UsualTolerance};
@@ -38,6 +40,8 @@ pub struct Start {
     needs: &'static [Need],
     /// Usual tolerances, which a study of the page starts with.
     tolerances: &'static [UsualTolerance],
+    /// Terms and their definitions.
+    glossary: BTreeMap<String, String>,
     colours: figure::Palette,
     version: &'static str,
 }
@@ -53,6 +57,7 @@ impl Start {
             fields: Field::all(),
             needs: NEEDS,
             tolerances: &USUAL,
+            glossary: glossary(),
             colours: figure::PALETTE,
             version: env!("CARGO_PKG_VERSION"),
         }

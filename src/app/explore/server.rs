@@ -20,7 +20,7 @@ use super::backend::{Answer, Backend, LINES, Question};
 use super::fields::Units;
 use super::guard::{OwnHosts, guard};
 use super::job::Jobs;
-use super::opened_file::OpenedFile;
+use super::opened_file::{OpenedFile, Unsaved};
 use super::page;
 use super::pages::Pages;
 use super::refusal::Refusal;
@@ -288,14 +288,18 @@ fn cancelled() -> String {
     serde_json::json!({ "refusal": Refusal::of(&SpectrumError::Cancelled) }).to_string()
 }
 
-/// Saves the scene to the file that the program was started with.
+/// Saves the scene to the file that the program was started with. If another program has changed the file, its content
+/// is sent.
 async fn save_to_file(State(server): State<Server>, headers: HeaderMap, body: String) -> Response {
     let Some(file) = &server.file else {
         return StatusCode::NOT_FOUND.into_response();
     };
     match file.save(&body) {
         Ok(()) => StatusCode::NO_CONTENT.into_response(),
-        Err(refusal) => sent(Answer::refused(&refusal.in_field(&body, units(&headers)))),
+        Err(Unsaved::Changed(text)) => (StatusCode::CONFLICT, text).into_response(),
+        Err(Unsaved::Refused(refusal)) => {
+            sent(Answer::refused(&refusal.in_field(&body, units(&headers))))
+        }
     }
 }
 

@@ -20,6 +20,7 @@ use crate::analyses::study::{Saw, Study, StudyReport};
 use crate::analyses::washboard::{self, WashboardError, WashboardReport};
 use crate::model::scene::{Freed, Quantity, Scene, SceneError, SceneFile};
 use crate::motion::transient::TransientError;
+use crate::page::figure::ChartData;
 use crate::page::outline::Outline;
 
 /// Computes the answer to a request as JSON.
@@ -72,8 +73,8 @@ struct Answer<'a, R> {
     /// The summary in its parts.
     outline: Outline,
     report: &'a R,
-    /// Figures as SVG, by file name.
-    figures: Vec<(&'static str, String)>,
+    /// Figures by file name, as SVG to save and as data to draw; null if the figure is no chart.
+    figures: Vec<(&'static str, String, Option<ChartData>)>,
     /// The resulting scene of a fit or a placement.
     scene: Option<&'a SceneFile>,
 }
@@ -106,7 +107,8 @@ fn answer<R: CommandReport + Serialize>(
         .into_iter()
         .map(|figure| {
             let [_, name] = figure.names();
-            Ok((name, figure.svg().map_err(|error| Refusal::of(&error))?))
+            let svg = figure.svg().map_err(|error| Refusal::of(&error))?;
+            Ok((name, svg, report.chart(name.trim_end_matches(".svg"))))
         })
         .collect::<Result<_, Refusal>>()?;
     let mut outline = report.outline();

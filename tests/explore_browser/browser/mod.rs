@@ -65,6 +65,13 @@ pub struct Page {
     _chromedriver: Running,
 }
 
+impl Drop for Page {
+    /// Closes the browser, also after a failure: without its driver it would go on.
+    fn drop(&mut self) {
+        let _ = self.driver.quit();
+    }
+}
+
 /// Serves the files of a folder, and nothing else.
 fn served(folder: &Path) -> (Running, String) {
     assert!(
@@ -82,7 +89,16 @@ fn served(folder: &Path) -> (Running, String) {
 }
 
 impl Page {
+    /// Opens the page, without the cards of a first visit.
     pub async fn open(arguments: &[&str]) -> Self {
+        let page = Self::open_first(arguments).await;
+        page.script("document.querySelector('#welcome .card')?.click()")
+            .await;
+        page
+    }
+
+    /// Opens the page as at a first visit.
+    pub async fn open_first(arguments: &[&str]) -> Self {
         Self::at(explore(arguments)).await
     }
 
@@ -190,10 +206,25 @@ impl Page {
 
     /// Types a text into a field in place of its present text.
     pub async fn enter(&self, path: &str, text: &str) {
+        self.script(&format!("sawflutter.reveal({path:?})")).await;
         let field = self.find(&format!("[id={path:?}]")).await;
         field.send_keys(Key::Control + "a").await.unwrap();
         field.send_keys(text).await.unwrap();
         field.send_keys(Key::Tab + "").await.unwrap();
+    }
+
+    /// Opens an example by its number in the list.
+    pub async fn open_example(&self, number: usize) {
+        let card = format!("document.querySelectorAll('#examples .card')[{number}].click()");
+        self.script(&card).await;
+    }
+
+    /// Opens the tab that has a task.
+    pub async fn open_tab_of(&self, task: &str) {
+        let tab = format!(
+            "document.querySelector('#tab-' + document.querySelector('#panel-{task}').parentElement.id.replace('group-', '')).click()"
+        );
+        self.script(&tab).await;
     }
 
     /// Selects a mode of the chart by key, which shows that the program still has the chart.
@@ -273,7 +304,7 @@ impl Page {
     }
 
     pub async fn close(self) {
-        self.driver.quit().await.unwrap();
+        drop(self);
     }
 }
 

@@ -1,7 +1,7 @@
 //! A client of `chromedriver`, by W3C's WebDriver: commands in JSON over HTTP, one connection each.
 
 use std::fmt::Display;
-use std::io::ErrorKind;
+use std::io::{ErrorKind, Read, Write};
 use std::ops::Add;
 use std::path::Path;
 use std::time::Duration;
@@ -143,9 +143,15 @@ impl WebDriver {
         std::fs::write(path, picture).map_err(|error| Refused(format!("{path:?}: {error}")))
     }
 
-    pub async fn quit(&self) -> Answer<()> {
+    /// Ends the browser. It blocks, so that it can be called where a page is dropped.
+    pub fn quit(&self) -> std::io::Result<()> {
+        let mut stream = std::net::TcpStream::connect(("127.0.0.1", self.port))?;
         let path = format!("/session/{}", self.session);
-        command(self.port, "DELETE", &path, None).await.map(drop)
+        write!(
+            stream,
+            "DELETE {path} HTTP/1.1\r\nHost: 127.0.0.1\r\nContent-Length: 0\r\n\r\n"
+        )?;
+        stream.read(&mut [0; 64]).map(drop)
     }
 }
 

@@ -31,7 +31,9 @@ export class Blade {
       const place = this.isAdding && this.#onBlade(event);
       if (place) onAdd(place);
     });
+    svg.addEventListener("pointerdown", () => (this.isHinting = false));
     this.ground = element("g", {}, svg);
+    this.ground.addEventListener("click", ({ target }) => !this.isAdding && onSelect(target.matches(".plate") ? "blade" : "mount"));
     this.things = element("g", {}, svg);
     this.mark = element("g", { class: "turns" }, svg);
     // The width is stored, because reading it at every move would force a layout each time.
@@ -49,6 +51,11 @@ export class Blade {
 
   set isAdding(on) {
     this.svg.classList.toggle("adding", on);
+  }
+
+  // Whether a hint says that the first pad can be dragged, until the first touch.
+  set isHinting(on) {
+    this.svg.classList.toggle("hinting", on);
   }
 
   // Returns the position of the pointer on the blade, or null if it is not on the blade.
@@ -76,9 +83,9 @@ export class Blade {
     this.refusedKey = refusedKey;
     if (!(reach > 0)) return;
     this.pixel = (2 * reach) / this.width;
-    const ground = JSON.stringify([this.pixel, scene.blade, scene.mount]);
-    if (ground !== this.drawn) this.#drawGround(scene, reach);
-    this.drawn = ground;
+    const seen = JSON.stringify([this.pixel, scene.blade, scene.mount]);
+    if (seen !== this.drawn) this.#drawGround(scene, reach);
+    this.drawn = seen;
     // Pads are drawn last, on top of cut and probe, because they are dragged most often.
     const wanted = [
       ...(scene.cut ? [["cut", "cut", scene.cut]] : []),
@@ -98,13 +105,7 @@ export class Blade {
     this.svg.setAttribute("viewBox", `${-reach} ${-reach} ${2 * reach} ${2 * reach}`);
     const [a, b] = [0.5 * scene.blade.inner_diameter_m, 0.5 * scene.blade.outer_diameter_m];
     const px = this.pixel;
-    const parts = [
-      `<path class="plate" fill-rule="evenodd" d="${toothed(b, scene.blade.teeth ?? 0)}${circle(a)}"/>`,
-      `<path class="bore" d="${circle(a)}"/>`,
-    ];
-    if (scene.mount.kind === "collar") {
-      parts.push(`<path class="collar" fill-rule="evenodd" d="${circle(0.5 * scene.mount.diameter_m)}${circle(a)}"/>`);
-    }
+    const parts = ground(scene).map(([name, d]) => `<path class="${name}" fill-rule="evenodd" d="${d}"/>`);
     // An arrow shows the direction of rotation.
     const r = b * 0.5 + a * 0.5;
     const [x, y] = polar(r, 205);
@@ -137,6 +138,7 @@ export class Blade {
         element("rect", { class: "handle" }, group);
         this.#hold(group.querySelector(".handle"), kind, path, "resize");
         element("text", { class: "number" }, group);
+        element("text", { class: "hint" }, group);
       }
     }
   }
@@ -144,12 +146,12 @@ export class Blade {
   _pad(group, pad) {
     const px = this.pixel;
     const [x, y] = polar(pad.radius_m, pad.angle_deg);
-    // A point spring has no extent. Its symbol is large enough to be touched.
+    // A point spring has no extent. Its symbol is a circle that is large enough to be touched.
     const point = pad.radial_length_m === 0;
     const [long, wide] = point ? [12 * px, 12 * px] : [pad.radial_length_m, pad.tangential_length_m];
     group.setAttribute("transform", `translate(${x} ${y}) rotate(${-pad.angle_deg})`);
     const [h, v] = [long / 2, wide / 2];
-    group.querySelector(".body").setAttribute("d", point ? circle(h) : pad.shape === "round" ? ellipse(h, v) : `M${-h} ${-v}H${h}V${v}H${-h}Z`);
+    group.querySelector(".body").setAttribute("d", outline({ radial_length_m: long, tangential_length_m: wide, shape: point ? "round" : pad.shape }));
     const handle = group.querySelector(".handle");
     // The handle leaves most of a small pad free for moving it, but is always large enough to be touched.
     const size = Math.max(Math.min(11 * px, 0.45 * Math.min(long, wide)), 6 * px);
@@ -162,6 +164,11 @@ export class Blade {
     text.setAttribute("transform", `translate(${aside} 0) rotate(${pad.angle_deg})`);
     text.setAttribute("font-size", 13 * px);
     text.textContent = number;
+    const hint = group.querySelector(".hint");
+    hint.setAttribute("transform", `rotate(${pad.angle_deg}) translate(0 ${-0.5 * Math.hypot(long, wide)})`);
+    hint.setAttribute("font-size", 14 * px);
+    hint.setAttribute("stroke-width", 4 * px);
+    hint.textContent = number === 1 ? "drag me" : "";
     this.#name(group, `Pad ${number}: radius ${shown(pad.radius_m * 1e3, 4)} mm, angle ${shown(pad.angle_deg, 4)}°, `
       + `${shown(pad.radial_length_m * 1e3, 4)} by ${shown(pad.tangential_length_m * 1e3, 4)} mm. `
       + "Arrow keys move it, with Shift they change its size.");
@@ -309,6 +316,33 @@ function circle(r) {
 
 function ellipse(a, b) {
   return `M${-a} 0A${a} ${b} 0 1 0 ${a} 0A${a} ${b} 0 1 0 ${-a} 0Z`;
+}
+
+// Returns the parts of the blade that do not move by hand, each with its class and its path.
+function ground({ blade, mount }) {
+  const [a, b] = [0.5 * blade.inner_diameter_m, 0.5 * blade.outer_diameter_m];
+  const collar = mount.kind === "collar" ? [["collar", circle(0.5 * mount.diameter_m) + circle(a)]] : [];
+  return [["plate", toothed(b, blade.teeth ?? 0) + circle(a)], ["bore", circle(a)], ...collar];
+}
+
+// Path of a pad about its centre.
+function outline({ radial_length_m, tangential_length_m, shape }) {
+  const [h, v] = [radial_length_m / 2, tangential_length_m / 2];
+  return shape === "round" ? ellipse(h, v) : `M${-h} ${-v}H${h}V${v}H${-h}Z`;
+}
+
+// Returns a small picture of a saw.
+export function thumbnail(scene) {
+  const reach = Blade.reach(scene);
+  const picture = element("svg", { class: "thumbnail", "aria-hidden": "true", viewBox: `${-reach} ${-reach} ${2 * reach} ${2 * reach}` });
+  for (const [name, d] of ground(scene)) element("path", { class: name, d, "fill-rule": "evenodd" }, picture);
+  for (const pad of scene.guides ?? []) {
+    const [x, y] = polar(pad.radius_m, pad.angle_deg);
+    const least = (length) => Math.max(length, 0.1 * reach);
+    const d = outline({ ...pad, radial_length_m: least(pad.radial_length_m), tangential_length_m: least(pad.tangential_length_m) });
+    element("path", { class: "body", d, transform: `translate(${x} ${y}) rotate(${-pad.angle_deg})` }, element("g", { class: "pad" }, picture));
+  }
+  return picture;
 }
 
 // Path of the rim. The shape of its teeth is an illustration: the model has a circular rim.

@@ -2,10 +2,10 @@
 
 const NEAR_PX = 14;
 
-// Returns the point nearest to the pointer, or null if no branch is within NEAR_PX.
-export function nearest(report, chart, pointer) {
+// Returns the point nearest to the pointer, or null if no branch is near enough.
+export function nearest(report, chart, pointer, near_px = NEAR_PX) {
   let best = null;
-  let least = NEAR_PX;
+  let least = near_px;
   for (const branch of report.campbell.branches) {
     /** @returns {[number, number]} */
     const at = (i) => [chart.valToPos(branch.rpm[i], "x"), chart.valToPos(branch.frequency_hz[i], "y")];
@@ -22,12 +22,10 @@ export function nearest(report, chart, pointer) {
   return best;
 }
 
-// Moves a point along its branch, or to the branch above or below at the same speed. Without a point, returns one of
-// the first branch.
-export function walked(report, point, [along, up]) {
+// Moves a point along its branch, or to the branch above or below at the same speed.
+export function walked(report, { branch, i }, [along, up]) {
   const { branches } = report.campbell;
-  const { branch, i } = point ?? { branch: branches[0], i: Math.floor(branches[0].rpm.length / 3) };
-  if (along !== 0 || !point) return { branch, i: Math.min(Math.max(i + along, 0), branch.rpm.length - 1) };
+  if (along !== 0) return { branch, i: Math.min(Math.max(i + along, 0), branch.rpm.length - 1) };
   const here = branches
     .map((other) => ({ branch: other, i: other.rpm.indexOf(branch.rpm[i]) }))
     .filter((at) => at.i >= 0)

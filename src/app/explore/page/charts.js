@@ -2,6 +2,7 @@
 
 import { nearest, samePoint, walked } from "./branches.js";
 import { node } from "./dom.js";
+import { hand } from "./hand.js";
 import { Painter } from "./marks.js";
 import { plot, splitsOf } from "./panel.js";
 import { shown } from "./words.js";
@@ -176,30 +177,33 @@ export class Charts {
     for (const part of [this.campbell, this.growth]) part.setRange(this.speeds);
   }
 
-  // Connects both panels: dragging in one magnifies a range of speeds in both, and a double click shows all speeds.
+  // Connects both panels: the hand in one magnifies and shifts both, and a double click shows all speeds.
   #zoomTogether(chart) {
-    const over = chart.over;
-    let from = null;
-    over.addEventListener("mousedown", (event) => (from = event.button === 0 ? event.offsetX : null));
-    over.addEventListener("mouseup", (event) => {
-      const ends = [from, event.offsetX].map((px) => chart.posToVal(px, "x")).sort((x, y) => x - y);
-      if (from !== null && Math.abs(event.offsetX - from) > 8) {
-        this.zoom(ends);
-      }
-      from = null;
-      chart.setSelect({ left: 0, width: 0, top: 0, height: 0 }, false);
+    hand(chart.over, {
+      magnify: (factor, px) => this.#chart !== null && this.#magnify(factor, chart.posToVal(px, "x")),
+      shift: (px) => {
+        if (!this.#zoom) return;
+        const [[from, to], [from_rpm, to_rpm]] = [this.#zoom, this.#sweep];
+        const wanted = chart.posToVal(0, "x") - chart.posToVal(px, "x");
+        const by = Math.min(Math.max(wanted, from_rpm - from), to_rpm - to);
+        this.zoom([from + by, to + by]);
+      },
+      tap: ({ offsetX, offsetY }) => chart === this.campbell.chart && this.report && this.point(nearest(this.report, chart, [offsetX, offsetY])),
     });
-    over.addEventListener("dblclick", () => this.zoom(null));
+    chart.over.addEventListener("dblclick", () => this.zoom(null));
   }
 
   // Shows a range of speeds, limited to the sweep, or all speeds if it is null. A range that is too small is ignored.
+  // Returns whether the range has changed.
   zoom(speeds) {
     const [from_rpm, to_rpm] = this.#sweep;
     const ends = speeds && [Math.max(speeds[0], from_rpm), Math.min(speeds[1], to_rpm)];
+    const wanted = ends && (ends[0] > from_rpm || ends[1] < to_rpm) ? ends : null;
     const least = LEAST_STRETCH * (to_rpm - from_rpm);
-    if (ends && ends[1] - ends[0] < least) return;
-    this.zoomed(ends && (ends[0] > from_rpm || ends[1] < to_rpm) ? ends : null);
+    if ((wanted && wanted[1] - wanted[0] < least) || String(wanted) === String(this.#zoom)) return false;
+    this.zoomed(wanted);
     this.onZoom(this.#zoom);
+    return true;
   }
 
   // Applies the range that the user chose in the other chart, without a call of `onZoom`.
@@ -208,12 +212,30 @@ export class Charts {
     this.redraw();
   }
 
-  // Scales the shown range about the highlighted point, or about its middle if no point in it is highlighted.
-  #magnify(factor) {
+  // Scales the shown range about a speed: by default about the highlighted point, or the middle if there is none.
+  #magnify(factor, about = this.#looked) {
     const [from, to] = this.speeds;
-    const looked = this.pointed?.branch.rpm[this.pointed.i];
-    const about = looked >= from && looked <= to ? looked : 0.5 * (from + to);
-    this.zoom([about + factor * (from - about), about + factor * (to - about)]);
+    return this.zoom([about + factor * (from - about), about + factor * (to - about)]);
+  }
+
+  get #looked() {
+    const [from, to] = this.speeds;
+    return this.pointed && this.#isShown(this.pointed) ? this.pointed.branch.rpm[this.pointed.i] : 0.5 * (from + to);
+  }
+
+  // Returns whether a point is in the picture.
+  #isShown({ branch, i }) {
+    const { x, y } = this.campbell.chart.scales;
+    const [rpm, hz] = [branch.rpm[i], branch.frequency_hz[i]];
+    return x.min <= rpm && rpm <= x.max && y.min <= hz && hz <= y.max;
+  }
+
+  // Moves the highlighted point along its branch or to another one, within the picture.
+  #walk(step) {
+    const { width, height } = this.campbell.chart.over.getBoundingClientRect();
+    const from = this.pointed && this.#isShown(this.pointed) ? this.pointed : null;
+    const to = from ? walked(this.report, from, step) : nearest(this.report, this.campbell.chart, [width / 2, height / 2], Infinity);
+    if (this.#isShown(to)) this.point(to);
   }
 
   #painter(u, height = (/** @type {number} */ value) => value) {
@@ -264,16 +286,17 @@ export class Charts {
     over.addEventListener("pointermove", (event) => {
       const [rpm, hz] = [this.campbell.chart.posToVal(event.offsetX, "x"), this.campbell.chart.posToVal(event.offsetY, "y")];
       this.readout.textContent = `${Math.round(rpm)} rpm, ${shown(hz, 3)} Hz`;
-      if (event.buttons === 0) this.#point(this.report && nearest(this.report, this.campbell.chart, [event.offsetX, event.offsetY]));
+      if (event.buttons === 0 && event.pointerType !== "touch") this.point(this.report && nearest(this.report, this.campbell.chart, [event.offsetX, event.offsetY]));
     });
-    over.addEventListener("pointerleave", () => {
+    over.addEventListener("pointerleave", ({ pointerType }) => {
       this.readout.textContent = "";
-      this.#point(null);
+      // A finger leaves the mode that it has tapped.
+      if (pointerType !== "touch") this.point(null);
     });
-    element.addEventListener("blur", () => this.#point(null));
+    element.addEventListener("blur", () => this.point(null));
     element.addEventListener("keydown", (event) => {
       const step = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, 1], ArrowDown: [0, -1] }[event.key];
-      if (event.key === "Escape") this.#point(null);
+      if (event.key === "Escape") this.point(null);
       const factor = { "+": 0.5, "=": 0.5, "-": 2, 0: Infinity }[event.key];
       if (factor && this.report && !event.ctrlKey && !event.metaKey) {
         event.preventDefault();
@@ -282,11 +305,12 @@ export class Charts {
       }
       if (!step || !this.report) return;
       event.preventDefault();
-      this.#point(walked(this.report, this.pointed, step));
+      this.#walk(step);
     });
   }
 
-  #point(found) {
+  // Highlights a point of a branch, or none.
+  point(found) {
     if (found?.branch === this.pointed?.branch && found?.i === this.pointed?.i) return;
     this.pointed = found;
     this.campbell.chart.redraw(false, false);

@@ -1,8 +1,8 @@
 // Opens scenes from files, examples and addresses, and saves files of the scene.
 
-import { download, node } from "./dom.js";
+import { download } from "./dom.js";
 import { bare, carried, link } from "./link.js";
-import { Refused, measured, read, saved, write } from "./talk.js";
+import { Changed, Refused, measured, read, saved, write } from "./talk.js";
 
 export class Files {
   // JSON of the scene as it was last opened or saved. The present scene has unsaved changes if it differs.
@@ -12,17 +12,21 @@ export class Files {
   #linked = null;
   // Name, without extension, of the file that the scene was opened from, or null.
   #stem = null;
+  // Text of the file of the saw, which another program has changed.
+  #changed = "";
 
   #saving = null;
   // `say(text)` shows an error. `onReplaced()` is called before another saw replaces the present one, `onBusy(name)`
-  // while the program makes a file, and with null after it. `shown()` waits for the identifier of the scene's chart.
-  constructor(state, kept, begun, { say, onReplaced, onBusy, shown }) {
+  // while the program makes a file, and with null after it, and `onChanged(name)` when another program has changed the
+  // file of the saw. `shown()` waits for the identifier of the scene's chart.
+  constructor(state, kept, begun, { say, onReplaced, onBusy, onChanged, shown }) {
     this.state = state;
     this.kept = kept;
     this.begun = begun;
     this.say = say;
     this.onReplaced = onReplaced;
     this.onBusy = onBusy;
+    this.onChanged = onChanged;
     this.shown = shown;
     this.saved(begun.scene);
     state.origin = this.#origin(this.#ofProgram(), begun.scene);
@@ -47,10 +51,14 @@ export class Files {
   // Returns a local file as a target for saving. The browser asks its user for permission when the page first writes to
   // it.
   #ofBrowser(handle, text) {
+    let known = text;
     const put = async () => {
+      const found = await handle.getFile().then((file) => file.text());
+      if (found !== known) throw new Changed((known = found));
       const stream = await handle.createWritable();
       await stream.write(this.#text());
       await stream.close();
+      known = this.#text();
     };
     return { name: handle.name, plain: isPlain(text), write: put };
   }
@@ -79,11 +87,26 @@ export class Files {
       if (scene === JSON.stringify(this.state.scene)) this.saved();
       this.say("");
     } catch (error) {
+      if (error instanceof Changed) {
+        this.#changed = error.text;
+        this.onChanged(target.name);
+        return;
+      }
       const elsewhere = "“Save a copy” saves the saw elsewhere";
       const reason = error instanceof Refused ? error.message
         : error instanceof DOMException ? `${target.name} was not saved: ${error.message}; ${elsewhere}`
         : `${target.name} was not saved: the program does not answer any more; ${elsewhere}`;
       this.say(reason);
+    }
+  }
+
+  // Opens the file of the saw as another program has changed it.
+  async load() {
+    const { target } = this.state.origin;
+    try {
+      this.#open(await read(this.#changed), { stem: this.#stem, target: { ...target, plain: isPlain(this.#changed) } });
+    } catch (error) {
+      this.say(`${target.name} was not opened, the scene is as it was: ${error.message}`);
     }
   }
 
@@ -117,14 +140,9 @@ export class Files {
     this.state.replace(scene, this.#origin(target, scene));
   }
 
-  offerExamples(list) {
-    const { examples } = this.begun;
-    list.append(...examples.map(({ name }, k) => node("option", { value: k, textContent: name })));
-    list.addEventListener("change", () => {
-      const example = examples[Number(list.value)];
-      list.value = "";
-      if (example && this.#mayReplace(example.name)) this.#open(example);
-    });
+  // Opens one of the examples.
+  choose(example) {
+    if (this.#mayReplace(example.name)) this.#open(example);
   }
 
   async save(name) {
@@ -189,14 +207,18 @@ export class Files {
   }
 
   // Opens the scene of the address. Without one, restores an edited scene that the browser kept, if any, and shows
-  // `note`.
+  // `note`. Returns whether there was either.
   async restore(note) {
     const linked = await this.#carried();
     const earlier = await this.kept.restored(linked);
-    if (linked !== null) return this.#openLinked(linked);
-    if (earlier === null || JSON.stringify(earlier) === JSON.stringify(this.begun.scene)) return undefined;
+    if (linked !== null) {
+      this.#openLinked(linked);
+      return true;
+    }
+    if (earlier === null || JSON.stringify(earlier) === JSON.stringify(this.begun.scene)) return false;
     note.hidden = false;
-    return this.state.replace(earlier);
+    this.state.replace(earlier);
+    return true;
   }
 
   async #carried() {

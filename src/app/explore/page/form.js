@@ -1,15 +1,18 @@
 // Makes a field for every quantity in the schema of scenes, so that the page can set all that the library reads.
 
+import { LOST } from "./backend.js";
 import { node } from "./dom.js";
 import { fieldOf, unitOf } from "./fields.js";
 import { lacks, putIn, read } from "./parts.js";
 import { Range } from "./range.js";
 import { get } from "./scene.js";
-import { LOST, Refused } from "./talk.js";
+import { Refused } from "./talk.js";
 import { partName, shown, tidy } from "./words.js";
 
-// Order of the first groups; the others follow in the order of the schema.
-const ORDER = ["operating_rpm", "blade", "guides", "mount", "cut"];
+// Parts of the saw that can be selected, in the order of their groups.
+const PARTS = ["blade", "guides", "mount", "cut"];
+// Order of the first quantities; the others follow in the order of the schema. The first one is always shown.
+const ORDER = ["operating_rpm", ...PARTS];
 // Groups that the chart does not use, or only on request, and the command that uses each.
 const ELSEWHERE = { cut: "cut", "cut.washboarding": "washboard", runup: "runup", side_force: "deflect", friction: "gap", spline: "cut" };
 
@@ -21,7 +24,18 @@ const WEIGHED = new RegExp("^(blade[.](thickness_m|profile[[].*thickness_m|rim[.
 export class Form {
   // `say(text)` shows an error that belongs to no field.
   constructor(place, { schema, needs }, state, say) {
-    this.place = place;
+    this.search = node("input", { type: "search", id: "search", placeholder: "Find a quantity", ariaLabel: "Find a quantity" });
+    this.search.addEventListener("input", () => this.#reveal());
+    this.chips = [...PARTS, ""].map((part) => {
+      const chip = node("button", { type: "button", value: part, textContent: partName(part) || "All quantities" });
+      chip.addEventListener("click", () => {
+        this.search.value = "";
+        this.#reveal(part);
+      });
+      return chip;
+    });
+    this.place = node("div");
+    place.append(node("div", { className: "tools parts" }, ...this.chips, this.search), this.place);
     this.schema = schema;
     this.needs = needs;
     this.state = state;
@@ -30,22 +44,47 @@ export class Form {
     this.found = [];
     // Path of the part that was added last; null after its fields are made.
     this.fresh = null;
+    // Part whose fields are shown; empty if those of all parts are.
+    this.part = PARTS[0];
+  }
+
+  // Shows the fields of a part, of all parts, or those that are searched for.
+  #reveal(part = this.part) {
+    this.part = part;
+    const wanted = this.search.value.trim().toLowerCase();
+    const isFound = ({ htmlFor, textContent }) => `${htmlFor} ${textContent}`.toLowerCase().includes(wanted);
+    for (const chip of this.chips) chip.setAttribute("aria-pressed", String(wanted === "" && chip.value === part));
+    for (const field of this.place.querySelectorAll(".field")) field.hidden = !isFound(field.querySelector("label"));
+    for (const group of this.place.querySelectorAll("details")) {
+      group.hidden = wanted !== "" && !group.querySelector(".field:not([hidden])");
+      group.open ||= wanted !== "" || group.dataset.path === part;
+    }
+    for (const child of this.place.children) {
+      const path = child.dataset.path ?? child.querySelector("[id]").id;
+      child.hidden ||= wanted === "" && part !== "" && ![part, ORDER[0]].includes(path);
+    }
+  }
+
+  // Shows the field or the group with this path; all of them if it is empty.
+  reveal(path) {
+    this.search.value = "";
+    this.#reveal(this.part && path.split(/[.[]/)[0]);
+    const place = this.fields.get(path)?.element ?? this.place.querySelector(`details[data-path="${path}"]`);
+    for (let part = place?.closest("details"); part; part = part.parentElement.closest("details")) part.open = true;
   }
 
   // Makes all fields anew, after a part of the scene was added or removed. Open groups, focus and selection are kept.
   build() {
     const open = new Set([...this.place.querySelectorAll("details[open]")].map((d) => d.dataset.path));
-    const first = this.place.childElementCount === 0;
     const selected = this.place.querySelector("details.selected")?.dataset.path;
     const focused = document.activeElement?.id;
     this.fields.clear();
     const parts = this.#object(this.schema, "", this.state.scene);
     this.place.replaceChildren(...parts);
     for (const part of this.place.querySelectorAll("details")) {
-      const isFresh = part.dataset.path === this.fresh;
-      const isBegun = first && /^(blade|guides)/.test(part.dataset.path) && !part.dataset.path.endsWith("material");
-      part.open = isFresh || isBegun || open.has(part.dataset.path);
+      part.open = part.dataset.path === this.fresh || open.has(part.dataset.path) || /^guides\[\d+\]$/.test(part.dataset.path);
     }
+    this.#reveal();
     this.fresh = null;
     if (focused) this.#focus(focused);
     this.influence(this.found);
@@ -80,9 +119,9 @@ export class Form {
   // Opens and marks the fields of a pad, the cut or the probe; unmarks all if `path` is null.
   select(path) {
     for (const part of this.place.querySelectorAll("details.selected")) part.classList.remove("selected");
-    let part = path && this.place.querySelector(`details[data-path="${path}"]`);
-    part?.classList.add("selected");
-    for (; part; part = part.parentElement.closest("details")) part.open = true;
+    if (!path) return;
+    this.reveal(path);
+    this.place.querySelector(`details[data-path="${path}"]`)?.classList.add("selected");
   }
 
   // Shows beside each number how it influences the speeds.
@@ -112,8 +151,8 @@ export class Form {
     for (const field of this.fields.values()) {
       const own = causes.includes(field.path);
       if (!field.isUnread) field.error(own ? this.inWords(refusal) : "");
+      if (own && !told) this.reveal(field.path);
       told ||= own;
-      if (own) field.element.closest("details")?.setAttribute("open", "");
     }
     return told;
   }
@@ -267,7 +306,11 @@ export class Form {
   #choice(schema, path, key) {
     const values = schema.enum ?? schema.oneOf.flatMap((choice) => choice.const ?? choice.enum);
     const select = node("select", { id: path }, ...values.map((value) => node("option", { value, textContent: value })));
-    select.addEventListener("change", () => this.state.set(path, select.value));
+    select.addEventListener("change", () => {
+      // A pad that lifts off needs a gap, for which the program has a usual one.
+      if (select.value === "one_sided") this.#putIn(path.replace(/contact$/, "gap_m"), null);
+      else this.state.set(path, select.value);
+    });
     const row = node("div", { className: "field", title: schema.description ?? "" },
       node("label", { htmlFor: path, textContent: key.replaceAll("_", " ") }), select);
     return this.#register(path, row, (value) => (select.value = value ?? schema.default ?? values[0]));
@@ -336,7 +379,7 @@ export class Form {
       const typed = number === undefined || number === null ? "" : typeof number === "number" ? shown(tidy(number * scale), digits) : number;
       if (document.activeElement !== input || !row.contains(document.activeElement)) input.value = typed;
       else if (Number(input.value) !== Number(typed)) input.value = typed;
-      slider.disabled = typeof known !== "number";
+      slider.disabled = typeof number !== "number";
       if (typeof known === "number") {
         slider.value = range.notch(known);
         slider.setAttribute("aria-valuetext", `${shown(known * scale)} ${unit}`);

@@ -3,6 +3,7 @@
 // is being computed. Critical speeds, and then bands with the verdict, arrive before their chart. If a draft takes long,
 // the critical speeds of the newest scene are requested separately.
 
+import { sawOf } from "./scene.js";
 import { chart, criticalSpeeds } from "./talk.js";
 
 // If the pointer does not move for this time during a drag, the chart is computed at the accuracy of the scene, so that
@@ -56,12 +57,12 @@ export class Live {
   // a drag ended.
   ask(scene, { draft, stamp = undefined, released = undefined }) {
     clearTimeout(this.#rest);
-    const text = JSON.stringify(scene);
+    const [text, saw] = [JSON.stringify(scene), sawOf(scene)];
     // The request takes over the moves of drafts that were never computed, because its chart contains them.
     const { stamps = [], counted = {} } = this.#next ?? {};
     if (stamp !== undefined) stamps.push(stamp);
-    if (!draft && this.#adopted(text, stamps, released)) return;
-    this.#next = { text, draft, stamps, counted, released, number: ++this.#count };
+    if (!draft && this.#adopted(saw, stamps, released)) return;
+    this.#next = { text, saw, draft, stamps, counted, released, number: ++this.#count };
     const running = this.#computing;
     if (running && (!draft || !running.draft)) {
       stamps.unshift(...running.stamps);
@@ -110,17 +111,19 @@ export class Live {
     this.ask(scene, { draft: false });
   }
 
-  // Uses the final chart of this scene if it was requested while the pointer rested. Returns whether it is being
-  // computed or shown.
-  #adopted(text, stamps, released) {
+  // Uses the final chart of this saw if it is being computed, because it was requested while the pointer rested, or if it
+  // is shown, because only the name of the scene has changed or a change was taken back. Returns whether it is being computed or shown.
+  #adopted(saw, stamps, released) {
     const [running, shown] = [this.#computing, this.#shown];
-    if (running && !running.draft && running.text === text) {
+    if (running && !running.draft && running.saw === saw) {
       running.stamps.push(...stamps);
       running.released = released;
       return true;
     }
-    const isNewest = shown && shown.request.number === this.#count;
-    if (!isNewest || shown.request.draft || shown.request.text !== text) return false;
+    if (!shown || shown.request.draft || shown.request.saw !== saw) return false;
+    this.stop();
+    this.onBusy(false);
+    shown.request.number = ++this.#count;
     this.onChart(shown.chart, { ...shown.request, stamps, released });
     return true;
   }

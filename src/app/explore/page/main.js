@@ -1,12 +1,14 @@
 // Connects the modules of the page: each change of the scene requests a chart, which is shown when it arrives.
 
+import { LOST, PLACE } from "./backend.js";
 import { Blade } from "./blade.js";
 import { Charts } from "./charts.js";
-import { describe, useInches } from "./fields.js";
+import { publish } from "./colours.js";
+import { describe } from "./fields.js";
 import { Form } from "./form.js";
+import { offerExamples, welcome } from "./gallery.js";
 import { Files } from "./files.js";
 import { Kept } from "./kept.js";
-import { publish } from "./marks.js";
 import { Live } from "./live.js";
 import { facts, outline, verdict } from "./outline.js";
 import { imageOf } from "./pairs.js";
@@ -14,21 +16,21 @@ import { isAsking, putIn } from "./parts.js";
 import { Pinned } from "./pinned.js";
 import { Pointed } from "./pointed.js";
 import { Ruler } from "./ruler.js";
-import { SceneState } from "./scene.js";
-import { LOST, Refused, influence, progress, start, stayConnected } from "./talk.js";
+import { SceneState, sawOf } from "./scene.js";
+import { Refused, influence, progress, start, stayConnected } from "./talk.js";
 import { Tasks } from "./tasks.js";
 import { Times } from "./times.js";
 import { dock } from "./dock.js";
-import { write } from "./dom.js";
+import { explain, learn, write } from "./dom.js";
+import { toolbar } from "./toolbar.js";
 import { Waiting } from "./waiting.js";
 import { shown } from "./words.js";
 
 /** @returns {any} */
 const by = (id) => document.getElementById(id);
-/** @returns {any} */
-const first = (selector) => document.querySelector(selector);
 const begun = await start();
 describe(begun.fields);
+learn(begun.glossary);
 let colours = publish(begun.colours);
 let latest = null;
 let refusedKey = null;
@@ -42,14 +44,14 @@ const state = new SceneState(begun.scene, (scene, { draft, structure, stamp, rel
   live.ask(scene, { draft, stamp, released });
   watchAge();
   weighing?.abort();
-  by("fields").classList.add("unweighed");
+  by("fields").classList.toggle("earlier", sawOf(scene) !== shownSaw);
   if (structure) form.build();
   form.refresh(draft);
   ruler.refresh();
   blade.draw(scene, refusedKey);
   if (draft) return;
   pointed.hint();
-  buttons();
+  tools.refresh();
   files.changed(scene);
   tasks.changed();
 });
@@ -59,7 +61,7 @@ const pointed = new Pointed({
   nameOf: (file) => files.nameOf(file),
 });
 const files = new Files(state, kept, begun, {
-  say, onReplaced: () => pinned.reset(), onBusy: (what) => (what ? waiting.begin(what) : waiting.end()), shown: chartOfScene,
+  say, onReplaced: () => pinned.reset(), onChanged: conflict, onBusy: (what) => (what ? waiting.begin(what) : waiting.end()), shown: chartOfScene,
 });
 const ruler = new Ruler(by("ruler"), state);
 const form = new Form(by("fields"), begun, state, say);
@@ -67,24 +69,30 @@ const charts = new Charts(by("campbell"), by("growth"), colours, { onHover: (poi
 const pinned = new Pinned(by("beside"), by("pinned"), charts, () => {
   if (!pinned.isNamed) by("side").checked = false;
   compare();
-  buttons();
+  tools.refresh();
 });
-const tasks = new Tasks(by("tabs"), by("panels"), by("panel-chart"), state, begun, {
+const tasks = new Tasks(by("tabs"), by("panels"), state, begun, {
+  onTab: (part) => select(part),
   onScene: (scene) => state.replace(scene),
   inWords: (refusal) => form.inWords(refusal),
   nameOf: (file) => files.nameOf(file),
+  colours: () => colours,
 });
+const tools = toolbar({ state, files, kept, pinned, charts, blade, form, tasks, pin, compare, select, adding });
 const live = new Live({ onChart, onAhead, onRefused, onBusy });
 const waiting = new Waiting(by("waiting"), { onStop, onAgain: () => live.again(state.scene), ask: progress });
 seen.state = state;
 // Returns whether the painted chart is that of the present scene at the accuracy of the scene.
-seen.settled = () => !isAsking() && seen.painted === JSON.stringify(state.scene) && !document.body.classList.contains("stale");
+seen.settled = () => !isAsking() && seen.painted === sawOf(state.scene) && !seen.isEarlier();
 // Returns whether the painted chart, which may be a draft, is that of the present scene.
-seen.follows = () => seen.newest === JSON.stringify(state.scene);
+seen.follows = () => seen.newest === sawOf(state.scene);
+// Returns whether the page shows that its chart is one of an earlier scene.
+seen.isEarlier = () => by("result").classList.contains("earlier");
 seen.report = () => latest.report;
 seen.speeds = () => charts.speeds;
 seen.nameOf = (file) => files.nameOf(file);
 seen.open = (file) => files.open(file);
+seen.reveal = (path) => form.reveal(path);
 
 // Waits for the chart of the scene and returns its identifier, or null if no chart of the scene is being computed.
 async function chartOfScene() {
@@ -120,39 +128,51 @@ function select(path) {
   form.select(path);
 }
 
+// Offers to load or to overwrite the file of the saw, which another program has changed.
+function conflict(name) {
+  by("conflict").hidden = false;
+  by("conflict").firstElementChild.textContent = `Another program has changed ${name}.`;
+}
+
 function onZoom(speeds) {
   by("zoomed").hidden = speeds === null;
   if (speeds) by("stretch").textContent = `${Math.round(speeds[0])} to ${Math.round(speeds[1])} rpm of the sweep`;
   pinned.zoomed(speeds);
 }
 
-// A chart of an earlier scene is marked as such if it is shown for longer than BLINK_MS.
+// A chart of an earlier scene is marked as such if it is shown for longer than BLINK_MS, or if no other one will come.
 const BLINK_MS = 400;
 const STEP_MS = 20;
-let shownText = null;
+const EARLIER = "Chart and verdict are of the scene before the last change.";
+let shownSaw = null;
 let ageing = null;
 function watchAge() {
-  ageing ??= setTimeout(() => {
-    ageing = null;
-    if (shownText === JSON.stringify(state.scene) || shownText === null) return;
-    document.body.classList.add("earlier-scene");
-    by("computed").textContent = "Chart and verdict are of the scene before the last change.";
-  }, BLINK_MS);
+  ageing ??= setTimeout(age, BLINK_MS);
+}
+
+function age() {
+  if (shownSaw === null || shownSaw === sawOf(state.scene)) return rejuvenate();
+  by("result").classList.add("earlier");
+  by("computed").textContent = EARLIER;
+  return undefined;
+}
+
+function rejuvenate() {
+  clearTimeout(ageing);
+  ageing = null;
+  by("result").classList.remove("earlier");
 }
 
 function onChart(chart, request) {
   const read = performance.now();
-  clearTimeout(ageing);
-  ageing = null;
-  shownText = request.text;
-  document.body.classList.remove("earlier-scene");
-  if (request.text !== JSON.stringify(state.scene)) watchAge();
+  shownSaw = request.saw;
+  rejuvenate();
+  if (request.saw !== sawOf(state.scene)) watchAge();
   latest = chart;
   refusedKey = null;
   pinned.begin(chart);
   form.refuse(null);
   say("");
-  document.body.classList.remove("stale");
   // The axes are kept until the chart after the release.
   pinned.hold(request.draft || state.isMoving);
   compare();
@@ -186,7 +206,7 @@ async function weigh(chart) {
     const found = await influence(chart.chart, weighing.signal);
     if (weighing.signal.aborted || latest !== chart) return;
     form.influence(found);
-    by("fields").classList.remove("unweighed");
+    by("fields").classList.remove("earlier");
   } catch (error) {
     // A failure is not reported, because the chart does not depend on the influence. The fields then show none.
     if (error.name !== "AbortError") form.influence([]);
@@ -211,8 +231,7 @@ function onRefused(error, request) {
   refusedKey = error.key ?? null;
   const told = form.refuse(error);
   say(told ? "" : answers ? error.message : LOST);
-  // The shown chart and verdict are those of an earlier scene.
-  document.body.classList.add("stale");
+  age();
   blade.draw(state.scene, refusedKey);
 }
 
@@ -227,8 +246,8 @@ function onStop() {
   if (seen.settled()) return false;
   // Early results of the chart that was stopped are removed.
   if (latest) compare();
-  say("Chart and verdict are of the scene before the last change.");
-  document.body.classList.add("stale");
+  say(EARLIER);
+  age();
   return true;
 }
 
@@ -242,7 +261,7 @@ function tell() {
   if (by("why").open) by("why").lastElementChild.replaceChildren(...outline(parts));
   const accuracy = report.accuracy;
   by("computed").textContent = `${accuracy.name} accuracy, ${accuracy.degrees_of_freedom} functions, `
-    + `estimated error ${shown(100 * accuracy.estimated_relative_error, 2)} %, computed in ${Math.round(milliseconds)} ms`;
+    + `estimated error ${shown(100 * accuracy.estimated_relative_error, 2)} %, computed in ${Math.round(milliseconds)} ms${PLACE}`;
   list(by("unusual"), report.unusual_numbers);
   list(by("warnings"), report.warnings);
   by("campbell").setAttribute("aria-label", `Campbell diagram. ${told.verdict.word}: ${told.verdict.line}. Arrow keys walk along the branches, plus and minus magnify, 0 shows all speeds.`);
@@ -252,162 +271,47 @@ function list(place, sentences) {
   place.replaceChildren(...sentences.map((sentence) => Object.assign(document.createElement("li"), { textContent: sentence })));
 }
 
-function buttons() {
-  const name = state.scene.name || "unnamed saw";
-  write(by("name"), name);
-  document.title = `${name} – sawflutter`;
-  const focused = /** @type {any} */ (document.activeElement);
-  by("undo").disabled = !state.canUndo;
-  by("redo").disabled = !state.canRedo;
-  // If the button that was pressed is disabled now, the other one gets the focus.
-  if (focused.disabled) [by("undo"), by("redo")].find((button) => !button.disabled)?.focus();
-  const source = state.scene.measured?.source;
-  by("points").hidden = source === undefined;
-  by("source").textContent = source ?? "";
-  by("source").title = source ?? "";
-  const { target } = files;
-  by("write").hidden = target === null;
-  by("write").textContent = target ? `Save to ${target.name}` : "";
-  by("write").title = by("write").textContent;
-  by("write").disabled = !target?.differs;
-  const copy = first("[data-save='scene.json']");
-  copy.textContent = target ? "Save a copy" : "Save saw";
-  copy.classList.toggle("main", target === null);
-  by("pin").disabled = pinned.isFull;
-  by("sides").hidden = !pinned.isNamed;
-}
-
 function pin() {
-  const name = prompt("Name of the reference", state.scene.name ?? "reference");
-  if (name === null) return;
-  pinned.pin(latest, name.trim() || "reference");
+  pinned.pin(latest);
   compare();
-  buttons();
+  tools.refresh();
 }
 
-const INCHES = "sawflutter inches";
-// Shows lengths in inches or millimetres; the scene does not change.
-function measure(on) {
-  by("inches").checked = on;
-  useInches(on);
-  form.build();
+// Colours the page for the screen or for paper. The scheme may change while the page is printed, so the medium is stored.
+let onPaper = false;
+function recolour(printed = onPaper) {
+  onPaper = printed;
+  colours = publish(begun.colours, onPaper);
+  charts.setColours(colours);
+  pinned.setColours(colours);
   tasks.changed();
-  try {
-    localStorage.setItem(INCHES, on ? "1" : "");
-  } catch {
-    // Without the storage of the browser, the choice lasts until the page is closed.
+}
+
+matchMedia("(prefers-color-scheme: dark)").addEventListener("change", () => recolour());
+addEventListener("beforeprint", () => recolour(true));
+addEventListener("afterprint", () => recolour(false));
+// The blade that moves makes way for the one whose parts can be dragged.
+by("drawing").addEventListener("pointerenter", () => charts.point(null));
+by("why").addEventListener("toggle", () => latest && tell());
+dock(by("campbell"));
+stayConnected((lost) => {
+  // A program that was started again does not have the earlier charts.
+  if (!lost && !by("lost").hidden) {
+    for (const place of document.querySelectorAll("#fault, .fault")) if (place.textContent === LOST) place.textContent = "";
+    form.readAgain();
+    live.again(state.scene);
   }
-}
-
-// Returns whether an element contains a text that is not in the scene. The browser's own undo then applies to the text.
-function isBeingTyped(element) {
-  if (!element.matches("input[type=text], textarea")) return false;
-  return !by("fields").contains(element) || element.value !== element.defaultValue;
-}
-
-// Closes a menu when an entry is chosen, when the pointer or the focus moves elsewhere, and on Escape. Checkboxes and
-// the button that copies the link leave it open.
-function menu(place) {
-  const close = () => (place.open = false);
-  place.addEventListener("click", (event) => event.target.closest("button") && event.target.id !== "link" && close());
-  place.addEventListener("change", (event) => event.target.type !== "checkbox" && close());
-  place.addEventListener("focusout", (event) => event.relatedTarget && !place.contains(event.relatedTarget) && close());
-  addEventListener("pointerdown", (event) => !place.contains(event.target) && close());
-  place.addEventListener("keydown", (event) => {
-    if (event.key !== "Escape") return;
-    close();
-    place.querySelector("summary").focus();
-  });
-}
-
-function wire() {
-  by("fields").addEventListener("focusin", (event) => select(form.partOf(event.target)));
-  by("undo").addEventListener("click", () => state.undo());
-  by("redo").addEventListener("click", () => state.redo());
-  by("pin").addEventListener("click", pin);
-  by("add").addEventListener("click", () => adding(!blade.isAdding));
-  addEventListener("keydown", (event) => event.key === "Escape" && adding(false));
-  by("pairs").addEventListener("change", (event) => (state.pairs = event.target.value));
-  by("link").addEventListener("click", () => files.copyLink(by("link")));
-  by("all").addEventListener("click", () => charts.zoom(null));
-  by("over").addEventListener("click", () => {
-    by("restored").hidden = true;
-    files.startOver();
-  });
-  by("why").addEventListener("toggle", () => latest && tell());
-  by("side").addEventListener("change", compare);
-  by("inches").addEventListener("change", (event) => measure(event.target.checked));
-  by("measured").addEventListener("change", (event) => charts.showMeasured(event.target.checked));
-  addEventListener("dragover", (event) => event.preventDefault());
-  addEventListener("drop", (event) => {
-    event.preventDefault();
-    const [file] = event.dataTransfer.files;
-    if (!file) return;
-    // The handle is requested at once, because the dropped items are only available during the event.
-    const handle = /** @type {any} */ (event.dataTransfer.items[0]).getAsFileSystemHandle?.() ?? Promise.resolve(null);
-    handle.catch(() => null).then((found) => files.open(file, found));
-  });
-  addEventListener("beforeunload", (event) => {
-    if (!files.isSaved && !kept.works) event.preventDefault();
-  });
-  by("write").addEventListener("click", async () => {
-    await files.write();
-    buttons();
-  });
-  by("open").addEventListener("click", async (event) => {
-    if (!("showOpenFilePicker" in globalThis)) return;
-    // This dialog, unlike that of the input element, gives a handle by which the page can save to the file.
-    event.preventDefault();
-    const [handle] = await /** @type {any} */ (globalThis).showOpenFilePicker().catch(() => []);
-    if (handle) await files.open(await handle.getFile(), handle);
-  });
-  by("open").addEventListener("change", async (event) => {
-    if (event.target.files[0]) await files.open(event.target.files[0]);
-    // An empty value allows the user to choose the same file again.
-    event.target.value = "";
-  });
-  for (const button of /** @type {NodeListOf<HTMLElement>} */ (document.querySelectorAll("[data-save]"))) {
-    button.addEventListener("click", () => files.save(button.dataset.save));
-  }
-  addEventListener("keydown", (event) => {
-    if (!(event.ctrlKey || event.metaKey) || isBeingTyped(event.target)) return;
-    const undo = event.key === "z" && !event.shiftKey;
-    const redo = event.key === "y" || (event.key.toLowerCase() === "z" && event.shiftKey);
-    if (undo) state.undo();
-    if (redo) state.redo();
-    if (undo || redo) event.preventDefault();
-  });
-  // The colour scheme may change while the page is printed, so the medium is stored.
-  let onPaper = false;
-  const recolour = (printed = onPaper) => {
-    onPaper = printed;
-    colours = publish(begun.colours, onPaper);
-    charts.setColours(colours);
-    pinned.setColours(colours);
-  };
-  matchMedia("(prefers-color-scheme: dark)").addEventListener("change", () => recolour());
-  addEventListener("beforeprint", () => recolour(true));
-  addEventListener("afterprint", () => recolour(false));
-  by("print").addEventListener("click", () => print());
-  menu(document.querySelector(".menu"));
-  dock(by("campbell"));
-  stayConnected((lost) => {
-    // A program that was started again does not have the earlier charts.
-    if (!lost && !by("lost").hidden) {
-      form.readAgain();
-      live.again(state.scene);
-    }
-    by("lost").hidden = !lost;
-  });
-}
-
+  by("lost").hidden = !lost;
+});
+explain(by("key"));
 await document.fonts.load("12px Inter");
-wire();
-files.offerExamples(by("examples"));
-measure(localStorage.getItem(INCHES) === "1");
-buttons();
+offerExamples(by("examples"), begun.examples, (example) => files.choose(example));
+tools.measure();
+tools.refresh();
 document.body.classList.remove("loading");
 blade.draw(state.scene, null);
 pointed.hint();
-await files.restore(by("restored"));
+if (!(await files.restore(by("restored"))) && !begun.file) {
+  blade.isHinting = welcome(by("welcome"), begun.examples, { choose: (example) => files.choose(example), open: () => by("open").click() });
+}
 if (!live.asked) live.ask(state.scene, { draft: false });

@@ -1,40 +1,11 @@
-// Colours of the figures, which are lighter on a dark page, and the drawing of the items of a chart on a canvas.
+// Drawing of the items of a chart on a canvas.
+
+import { DARK_PAPER, css, mix } from "./colours.js";
+import { shown } from "./words.js";
 
 const DASH = [6, 4];
 const FINE_DASH = [4, 4];
 const FONT = "Inter, Helvetica, Arial, sans-serif";
-const DARK_PAPER = [22, 25, 30];
-const WHITE = [255, 255, 255];
-
-const mix = (a, b, share) => a.map((channel, i) => Math.round(channel * share + b[i] * (1 - share)));
-const css = (/** @type {number[]} */ [r, g, b]) => `rgb(${r}, ${g}, ${b})`;
-
-// Returns the colours of the page as CSS. Printed paper has those of a light page.
-function theme(colours, onPaper = false) {
-  const dark = !onPaper && matchMedia("(prefers-color-scheme: dark)").matches;
-  const chosen = {};
-  for (const [name, colour] of Object.entries(colours)) {
-    // On a dark page, lines and letters are lightened for contrast, and shades are darkened.
-    if (!dark) chosen[name] = css(colour);
-    else if (name.endsWith("_shade")) chosen[name] = css(mix(colours[name.replace("_shade", "")], DARK_PAPER, 0.55));
-    else if (name.endsWith("_streak")) chosen[name] = css(mix(colour, DARK_PAPER, 0.6));
-    else chosen[name] = css(mix(colour, WHITE, 0.52));
-  }
-  if (dark) {
-    Object.assign(chosen, { paper: css(DARK_PAPER), ink: "rgb(232, 235, 239)", quiet: "rgb(158, 165, 175)", grid: "rgb(44, 49, 57)" });
-  }
-  return { ...chosen, dark };
-}
-
-// Sets the colours of the page as custom properties for the style sheet, and returns them.
-export function publish(colours, onPaper) {
-  const chosen = theme(colours, onPaper);
-  for (const [name, colour] of Object.entries(chosen)) {
-    document.documentElement.style.setProperty(`--${name.replaceAll("_", "-")}`, String(colour));
-  }
-  return chosen;
-}
-
 // Draws the items of a chart on one of its panels. `x` and `y` convert values to canvas pixels, `box` is the panel in
 // canvas pixels, and `scale` is the number of canvas pixels for each pixel of the page.
 export class Painter {
@@ -106,16 +77,146 @@ export class Painter {
     this.context.setLineDash(dash.map((d) => d * this.scale));
   }
 
-  // Segments entirely above the panel are skipped, and a null in `x` interrupts a line.
+  // Segments entirely above the panel are skipped, and a null interrupts a line.
   #trace({ x, y }) {
     let goesOn = false;
     this.context.beginPath();
     for (let i = 0; i + 1 < x.length; i++) {
-      const isSeen = x[i] !== null && x[i + 1] !== null && Math.max(this.y(y[i]), this.y(y[i + 1])) >= this.box.top;
+      const isSeen = ![x[i], x[i + 1], y[i], y[i + 1]].includes(null) && Math.max(this.y(y[i]), this.y(y[i + 1])) >= this.box.top;
       if (isSeen && !goesOn) this.context.moveTo(this.x(x[i]), this.y(y[i]));
       if (isSeen) this.context.lineTo(this.x(x[i + 1]), this.y(y[i + 1]));
       goesOn = isSeen;
     }
+    this.context.stroke();
+  }
+
+  // Fills areas between two curves, and columns from zero on.
+  areas(items) {
+    for (const { item, x, low, high, edges, heights, colour, tint } of items) {
+      if (item !== "area" && item !== "bars") continue;
+      this.context.fillStyle = this.colours[colour];
+      this.context.globalAlpha = tint;
+      if (item === "bars") heights.forEach((height, k) => this.#fill(edges[k], edges[k + 1], 0, height));
+      else x.forEach((at, k) => this.#fill((at + (x[k - 1] ?? at)) / 2, (at + (x[k + 1] ?? at)) / 2, low[k], high[k]));
+      this.context.globalAlpha = 1;
+    }
+  }
+
+  #fill(from, to, low, high) {
+    if (low === null || high === null || low >= high) return;
+    const [left, top] = [this.x(from), this.y(high)];
+    this.context.fillRect(left, top, this.x(to) - left, this.y(low) - top);
+  }
+
+  // Fills the cells of grids, which end half way to their neighbours and at the ends of the axes.
+  cells(items, [left, right], [bottom, top]) {
+    const edges = (values, first, last) => [first, ...values.slice(1).map((value, k) => (value + values[k]) / 2), last];
+    for (const heat of items.filter(({ item }) => item === "heat")) {
+      const [x, y] = [edges(heat.x, left, right).map(this.x), edges(heat.y, bottom, top).map(this.y)];
+      heat.z.forEach((row, j) => row.forEach((value, i) => {
+        if (value === null) return;
+        this.context.fillStyle = this.#ramp(heat, value);
+        // Half a pixel more leaves no gap between neighbours.
+        this.context.fillRect(x[i], y[j + 1], x[i + 1] - x[i] + 0.5, y[j] - y[j + 1] + 0.5);
+      }));
+    }
+  }
+
+  #ramp({ colours, range, spread }, value) {
+    const [low, at, high] = [range[0], value, range[1]].map((one) => (spread === "logarithmic" ? Math.log10(one) : one));
+    const place = Math.min(Math.max((at - low) / (high - low || 1), 0), 1) * (colours.length - 1);
+    const below = Math.min(Math.floor(place), Math.max(colours.length - 2, 0));
+    const colour = colours.length > 1 ? mix(colours[below + 1], colours[below], place - below) : colours[0];
+    return css(this.colours.dark ? mix(colour, DARK_PAPER, 0.72) : colour);
+  }
+
+  // Draws the scale of colours to the right of the panel.
+  scaleOf(heat, { unit, scale }) {
+    const left = this.box.left + this.box.width + 10 * this.scale;
+    const [least, most] = heat.range;
+    const value = (share) => (heat.spread === "logarithmic" ? least * (most / least) ** share : least + share * (most - least));
+    for (let k = 0; k < 40; k++) {
+      this.context.fillStyle = this.#ramp(heat, value((k + 0.5) / 40));
+      this.context.fillRect(left, this.box.top + (1 - (k + 1) / 40) * this.box.height, 12 * this.scale, this.box.height / 40 + 1);
+    }
+    this.#letters(this.colours.quiet, "left", 10);
+    for (const share of [0, 0.5, 1]) {
+      const words = `${shown(value(share) * scale, 3)} ${share === 1 ? unit : ""}`;
+      this.context.fillText(words, left + 16 * this.scale, this.box.top + (1 - share) * this.box.height);
+    }
+  }
+
+  // Draws grid, numbers and names of the axes of a panel.
+  axes(x, y, hasNumbers) {
+    const { left, top, width, height } = this.box;
+    this.#stroke(this.colours.grid, 1);
+    this.context.strokeRect(left, top, width, height);
+    const line = (...ends) => {
+      this.#stroke(this.colours.grid, 1);
+      this.context.beginPath();
+      this.context.moveTo(ends[0], ends[1]);
+      this.context.lineTo(ends[2], ends[3]);
+      this.context.stroke();
+    };
+    let free = -Infinity;
+    for (const [value, words] of x.ticks) {
+      const at = x.at(value);
+      line(at, top, at, top + height);
+      this.#letters(this.colours.quiet, "center");
+      const half = this.context.measureText(words).width / 2;
+      if (at - half < free || at < left - 1 || at > left + width + 1) continue;
+      free = at + half + 6 * this.scale;
+      this.context.fillText(words, at, top + height + 10 * this.scale);
+    }
+    for (const [value, words] of hasNumbers ? y.ticks : []) {
+      const at = y.at(value);
+      if (at < top - 1 || at > top + height + 1) continue;
+      line(left, at, left + width, at);
+      this.#letters(this.colours.quiet, "right");
+      this.context.fillText(fitted(this.context, words, left - 18 * this.scale), left - 5 * this.scale, at);
+    }
+    this.#letters(this.colours.quiet, "center");
+    this.context.fillText(x.title, left + width / 2, top + height + 28 * this.scale);
+    this.context.save();
+    this.context.translate(left - 50 * this.scale, top + height / 2);
+    this.context.rotate(-Math.PI / 2);
+    this.context.fillText(fitted(this.context, y.title, height), 0, 0);
+    this.context.restore();
+  }
+
+  // Writes a line above the panel.
+  heading(words, at) {
+    this.#letters(this.colours.ink, "left", 12);
+    this.context.fillText(fitted(this.context, words, this.box.width), this.box.left, at);
+  }
+
+  // Writes the labels of points and those on curves.
+  texts(items) {
+    const [left, width] = [this.box.left, this.box.width];
+    const write = (words, x, y, colour) => {
+      this.#letters(this.colours[colour], "left", 10);
+      const wide = this.context.measureText(words).width;
+      const at = Math.min(this.x(x) + 5 * this.scale, left + width - wide);
+      this.context.fillText(words, at, this.y(y) - 8 * this.scale);
+    };
+    for (const { item, x, y, text, label, colour } of items) {
+      if (item === "label") write(text, x, y, colour);
+      const middle = Math.floor((x?.length ?? 0) / 2);
+      if (item === "line" && label && ![x[middle], y[middle]].includes(null)) write(label, x[middle], y[middle], colour);
+    }
+  }
+
+  // Draws a cross-hair at shares of the axes.
+  cross(shares) {
+    const [x, y] = shares;
+    const { left, top, width, height } = this.box;
+    const [at, level] = [left + x * width, top + (1 - y) * height];
+    this.#stroke(this.colours.ink, 1.5);
+    this.context.beginPath();
+    this.context.moveTo(at, top);
+    this.context.lineTo(at, top + height);
+    this.context.moveTo(left, level);
+    this.context.lineTo(left + width, level);
     this.context.stroke();
   }
 
@@ -155,9 +256,14 @@ export class Painter {
   note(words) {
     const [left, middle] = [this.box.left + 10 * this.scale, this.box.top + this.box.height / 2];
     this.#letters(this.colours.paper, "left", 12);
-    this.context.fillRect(left - 4 * this.scale, middle - 9 * this.scale, this.context.measureText(words).width + 8 * this.scale, 18 * this.scale);
-    this.context.fillStyle = this.colours.quiet;
-    this.context.fillText(words, left, middle);
+    const lines = broken(this.context, words, this.box.width - 20 * this.scale);
+    lines.forEach((line, k) => {
+      const at = middle + 16 * (k - 0.5 * (lines.length - 1)) * this.scale;
+      this.context.fillStyle = this.colours.paper;
+      this.context.fillRect(left - 4 * this.scale, at - 9 * this.scale, this.context.measureText(line).width + 8 * this.scale, 18 * this.scale);
+      this.context.fillStyle = this.colours.quiet;
+      this.context.fillText(line, left, at);
+    });
   }
 
   // Labels the vertical lines above the panel or below its upper edge. The operating speed is labelled first; labels
@@ -187,8 +293,8 @@ export class Painter {
   // without room are omitted.
   labelBands(items, rows, height) {
     const taken = [];
-    const shown = items.filter((band) => band.item === "band" && band.shaded.length > 0 && (this.#has(band.to) || this.#has(band.from)));
-    for (const band of shown.sort((a, b) => b.peak_growth_per_s - a.peak_growth_per_s)) {
+    const wanted = items.filter((band) => band.item === "band" && band.shaded.length > 0 && (this.#has(band.to) || this.#has(band.from)));
+    for (const band of wanted.sort((a, b) => b.peak_growth_per_s - a.peak_growth_per_s)) {
       this.#letters(this.colours[band.colour], "left");
       const [width, gap] = [this.context.measureText(band.label).width, 5 * this.scale];
       const sides = [this.x(band.to) + gap, this.x(band.from) - gap - width];
@@ -242,6 +348,17 @@ export class Painter {
       context.globalAlpha = 1;
     }
   }
+}
+
+// Breaks a text into lines that are no wider than a width in canvas pixels.
+function broken(context, text, room) {
+  const lines = [""];
+  for (const word of text.split(" ")) {
+    const longer = `${lines.at(-1)} ${word}`.trimStart();
+    if (context.measureText(longer).width <= room) lines[lines.length - 1] = longer;
+    else lines.push(word);
+  }
+  return lines;
 }
 
 // Shortens a text to a width in canvas pixels.

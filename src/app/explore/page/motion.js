@@ -1,6 +1,9 @@
 // Animates a mode on the blade in slow motion, as seen from space: w(r, θ, t) = Re Σ (c(r) cos nθ + s(r) sin nθ)
-// e^{iωt}. A mark turns with the blade, equally slowed down. A forward wave overtakes the mark; a reflected one falls
-// behind it, although it runs in the direction of rotation in space.
+// e^{iωt}, in relief or, without WebGL2 and for users who want less motion, as colours of a flat blade. A mark turns with
+// the blade, equally slowed down. A forward wave overtakes the mark; a reflected one falls behind it, although it runs in
+// the direction of rotation in space.
+
+import { Relief } from "./relief.js";
 
 const SIZE = 180;
 // Shortest times in which one oscillation and one turn of the blade are shown.
@@ -18,21 +21,30 @@ export class Motion {
     canvas.width = SIZE;
     canvas.height = SIZE;
     this.still = matchMedia("(prefers-reduced-motion: reduce)").matches;
+    const gl = this.still ? null : canvas.getContext("webgl2", { preserveDrawingBuffer: true });
+    this.relief = gl && new Relief(gl);
+    document.body.classList.toggle("in-relief", this.relief !== null);
   }
 
-  // Starts the animation of a mode. `reach` is half the width of the drawing in metres. Returns the factor by which the
-  // motion is slowed down.
-  show(mode, reach) {
+  // Starts the animation of a mode of a saw. `reach` is half the width of the drawing in metres. Returns the factor by
+  // which the motion is slowed down.
+  show(mode, scene, reach) {
     this.hide();
     this.#field = sampled(mode, reach);
+    this.canvas.hidden = false;
+    if (this.relief) {
+      this.canvas.width = this.canvas.height = Math.round(this.canvas.clientWidth * devicePixelRatio) || SIZE;
+      this.relief.begin(mode, this.#field.largest, scene, reach);
+    }
     const turn = mode.rpm > 0 ? 60 / mode.rpm : Infinity;
     const period = mode.frequency_hz > 0 ? 1 / mode.frequency_hz : Infinity;
     const slower = Math.max(period < Infinity ? PERIOD_S / period : 0, turn < Infinity ? LEAST_TURN_S / turn : 0, 1);
     const begun = performance.now();
-    this.canvas.hidden = false;
     const draw = (now) => {
       const t = (now - begun) / 1000 / slower;
-      this.#draw(2 * Math.PI * mode.frequency_hz * t);
+      const phase = 2 * Math.PI * mode.frequency_hz * t;
+      if (this.relief) this.relief.draw(phase, (2 * Math.PI * t) / turn, this.colours());
+      else this.#draw(phase);
       // The blade turns counterclockwise in the drawing, against the positive angle of SVG.
       this.mark?.setAttribute("transform", `rotate(${(-360 * t) / turn || 0})`);
       if (!this.still) this.#frame = requestAnimationFrame(draw);
@@ -65,7 +77,7 @@ export class Motion {
     const context = this.canvas.getContext("2d");
     const image = context.createImageData(SIZE, SIZE);
     const [cos, sin] = [Math.cos(phase), Math.sin(phase)];
-    const [up, down, rest] = this.colours();
+    const { up, down, rest } = this.colours();
     for (let k = 0; k < inside.length; k++) {
       if (!inside[k]) continue;
       const w = re[k] * cos - im[k] * sin;
@@ -105,5 +117,5 @@ function sampled({ radius_m, harmonics }, reach) {
     field.re[k] /= largest || 1;
     field.im[k] /= largest || 1;
   }
-  return field;
+  return { ...field, largest };
 }

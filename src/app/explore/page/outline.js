@@ -1,7 +1,7 @@
 // Shows texts of the program: the verdict of a chart, and outlines with sentences, facts and tables, also for users who do
 // not see the chart.
 
-import { node } from "./dom.js";
+import { explain, node } from "./dom.js";
 import { unitOf } from "./fields.js";
 import { shown } from "./words.js";
 
@@ -24,10 +24,11 @@ export function verdict(place, { answer, word, line }) {
   place.className = answer ?? "";
   if (place.textContent === `${word} ${line}`) return;
   place.replaceChildren(node("strong", {}, node("span", { textContent: word })), " ", node("span", { textContent: line }));
+  explain(place);
 }
 
 function term(name, text, className = "fact") {
-  return node("div", { className }, node("dt", { textContent: name }), node("dd", { textContent: text }));
+  return node("div", { className }, explain(node("dt", { textContent: name })), node("dd", { textContent: text }));
 }
 
 // Shows the main numbers of a saw, each with that of another saw if it differs.
@@ -66,12 +67,13 @@ const BLOCKS = {
   table,
 };
 
-// Returns the elements of an outline: the answer, warnings, the rest, and details in small letters.
+// Returns the elements of an outline: warnings, the answer, the rest, and details in small letters.
 export function outline(parts) {
-  const rank = ({ block, is_detail }) => (is_detail ? 3 : "headline" in block || "heading" in block ? 0 : "remark" in block ? 1 : 2);
+  const rank = ({ block, is_detail }) => (is_detail ? 3 : "remark" in block ? 0 : "headline" in block || "heading" in block ? 1 : 2);
   return parts.toSorted((x, y) => rank(x) - rank(y)).map(({ block, is_detail }) => {
     const [[kind, content]] = Object.entries(block);
     const made = BLOCKS[kind](content);
+    if (kind !== "table" && kind !== "facts") explain(made);
     made.classList.toggle("detail", is_detail);
     return made;
   });

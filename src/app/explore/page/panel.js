@@ -43,7 +43,7 @@ export function plot(place, { height, label, splits = undefined, tick = undefine
     height,
     padding: [18, room, 0, 0],
     legend: { show: false },
-    cursor: { drag: { x: true, y: false }, y: false, points: { show: false } },
+    cursor: { drag: { x: false, y: false }, y: false, points: { show: false } },
     scales: { x: { time: false, range: () => range ?? [0, 1] }, y: { range: () => yRange() } },
     axes: [axis(xLabel, 28), axis(label, 46, splits, tick)],
     series: [{}, { show: true, stroke: "transparent", points: { show: false } }],

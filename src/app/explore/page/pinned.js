@@ -4,17 +4,23 @@
 import { Charts } from "./charts.js";
 import { node } from "./dom.js";
 import { told } from "./outline.js";
-import { clone } from "./scene.js";
+import { nameOf } from "./fields.js";
+import { clone, differences, get } from "./scene.js";
 
 // Dashes of the lines of pinned saws. There are no more, because the chart would be hard to read.
 const DASHES = [[], [7, 4], [2, 3], [9, 3, 2, 3]];
 const SVG = "http://www.w3.org/2000/svg";
+// Largest number of differences in the name of a saw.
+const MOST_NAMED = 2;
+const KEPT = "sawflutter pins";
 
 export class Pinned {
   // First chart of the page or of another saw that was opened. Numbers are compared with it while no saw is pinned.
   #begun = null;
-  // Pinned saws, each with its name, its chart and the dashes of its lines.
-  #saws = [];
+  // Scene of the first chart of the saw that was opened, from which pinned saws differ.
+  #opened = null;
+  // Pinned saws, each with its name, its chart and the dashes of its lines. They survive a reload.
+  #saws = JSON.parse(sessionStorage.getItem(KEPT) ?? "[]");
   #charts = null;
 
   // `present` are the charts of the present saw; `onUnpin()` is called after a saw is unpinned.
@@ -31,18 +37,38 @@ export class Pinned {
 
   begin(chart) {
     this.#begun ??= clone(chart);
+    this.#opened ??= this.#begun.report.scene;
   }
 
   // Forgets the first chart when another saw is opened, so that its numbers are not compared with those of the earlier
   // saw. Pinned saws remain.
   reset() {
     if (!this.isNamed) this.#begun = null;
+    this.#opened = null;
   }
 
-  pin(chart, name) {
-    const isFree = (dash) => this.#saws.every((saw) => saw.dash !== dash);
+  pin(chart) {
+    const isFree = (dash) => this.#saws.every((saw) => String(saw.dash) !== String(dash));
+    const name = this.#nameOf(chart.report.scene);
     const same = this.#saws.filter((saw) => saw.name === name || saw.name.startsWith(`${name} (`)).length;
     this.#saws.push({ name: same > 0 ? `${name} (${same + 1})` : name, chart: clone(chart), dash: DASHES.find(isFree) });
+    this.#keep();
+  }
+
+  // Returns a name that says in what a saw differs from the one that was opened.
+  #nameOf(scene) {
+    const paths = differences(this.#opened, scene).filter((path) => !/^(name|notes)/.test(path));
+    const words = paths.slice(0, MOST_NAMED).map((path) => nameOf(path, get(scene, path)));
+    if (paths.length > MOST_NAMED) words.push("…");
+    return words.join(", ") || scene.name || "as opened";
+  }
+
+  #keep() {
+    try {
+      sessionStorage.setItem(KEPT, JSON.stringify(this.#saws));
+    } catch {
+      // The storage of the browser is full or switched off: the saws are lost with the page.
+    }
   }
 
   get isFull() {
@@ -66,6 +92,7 @@ export class Pinned {
   #unpin(saw) {
     this.#saws = this.#saws.filter((other) => other !== saw);
     if (!this.isNamed) this.#begun = saw.chart;
+    this.#keep();
     this.onUnpin();
   }
 

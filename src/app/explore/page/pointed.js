@@ -27,8 +27,8 @@ export class Pointed {
     this.nameOf = nameOf;
     const numbers = (text) => text.match(/\d+/g).map(Number);
     this.motion = new Motion(canvas, mark, () => {
-      const { backward, forward, dark } = colours();
-      return [numbers(backward), numbers(forward), dark ? [44, 49, 57] : [247, 248, 249]];
+      const { backward, forward, ink, dark } = colours();
+      return { up: numbers(backward), down: numbers(forward), ink: numbers(ink), rest: dark ? [62, 68, 78] : [232, 234, 238], pad: dark ? [76, 194, 204] : [13, 118, 128] };
     });
     film.addEventListener("click", () => this.#save());
   }
@@ -48,7 +48,7 @@ export class Pointed {
     this.#asked = new AbortController();
     try {
       const shape = await mode(chart, branch.rpm[i], branch.frequency_hz[i], this.#asked.signal);
-      const slower = this.motion.show(shape, Blade.reach(this.scene()));
+      const slower = this.motion.show(shape, this.scene(), Blade.reach(this.scene()));
       document.body.classList.add("moving");
       this.#filmed = shape;
       this.film.disabled = this.motion.still || !globalThis.MediaRecorder;
@@ -85,7 +85,7 @@ export class Pointed {
 
   async #save() {
     this.film.disabled = true;
-    this.motion.show(this.#filmed, Blade.reach(this.scene()));
+    this.motion.show(this.#filmed, this.scene(), Blade.reach(this.scene()));
     download(this.nameOf("mode.webm"), await this.motion.film());
     this.motion.hide();
     this.film.disabled = false;

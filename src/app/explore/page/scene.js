@@ -8,6 +8,16 @@ const RUN_MS = 1500;
 
 export const clone = (value) => structuredClone(value);
 
+// Returns the saw of a scene as text. A scene with another name and other notes has the same results.
+export const sawOf = ({ name: _name, notes: _notes, ...saw }) => JSON.stringify(saw);
+
+// Returns the paths of the values in which two scenes differ.
+export function differences(before, after, path = "") {
+  if (Object(before) !== before || Object(after) !== after) return before === after ? [] : [path];
+  const inner = (key) => (Array.isArray(after) ? `${path}[${key}]` : path ? `${path}.${key}` : key);
+  return [...new Set([...Object.keys(before), ...Object.keys(after)])].flatMap((key) => differences(before[key], after[key], inner(key)));
+}
+
 // "guides[0].radius_m" → ["guides", 0, "radius_m"]
 export function steps(path) {
   return [...path.matchAll(/([^.[\]]+)|\[(\d+)\]/g)].map(([, name, index]) => name ?? Number(index));

@@ -13,7 +13,13 @@ export class Refused extends Error {
   }
 }
 
-export const LOST = "The program does not answer any more. Save the scene, start the program again and open it there.";
+// The file of the program has been changed by another one, and has this text now.
+export class Changed extends Error {
+  constructor(text) {
+    super("another program has changed the file");
+    this.text = text;
+  }
+}
 
 // Name of this page, under which the server keeps its charts.
 const page = crypto.randomUUID();
@@ -24,6 +30,7 @@ async function post(path, body, signal, shown = "") {
   if (answer.ok) return answer;
   if (answer.status === 422) throw new Refused(await answer.json());
   const text = await answer.text();
+  if (answer.status === 409) throw new Changed(text);
   throw new Refused({ key: null, message: text || `the server answered ${answer.status}` });
 }
 

@@ -1,12 +1,14 @@
-// Tasks besides the chart, such as the cut, a run-up or a fit. Each is a tab with the summary that the program prints,
-// its figures, and its report to save.
+// Tasks besides the chart, such as the cut, a run-up or a fit, in tabs. Each has the summary that the program prints, its
+// figures, and its report to save.
 
-import { download, node } from "./dom.js";
-import { unitOf } from "./fields.js";
+import { LOST } from "./backend.js";
+import { download, explain, node } from "./dom.js";
+import { placeOf, unitOf } from "./fields.js";
+import { Figure } from "./figure.js";
 import { outline } from "./outline.js";
 import { lacks, putIn } from "./parts.js";
-import { get } from "./scene.js";
-import { LOST, Refused, task } from "./talk.js";
+import { clone, get, sawOf, set } from "./scene.js";
+import { Refused, task } from "./talk.js";
 import { partName, shown, tidy } from "./words.js";
 
 // Returns the paths of the numbers of a scene that have a usual tolerance, each with this tolerance in the unit of its
@@ -25,16 +27,27 @@ function axesOf(tolerances, scene) {
   return usualTolerances(tolerances, scene).map(([path]) => ({ value: path, textContent: placeOf(path) }));
 }
 
-// Returns the name of a number, with the guide that it belongs to.
-function placeOf(path) {
-  const { name } = unitOf(path);
-  return path.startsWith("guides") ? `guide ${Number(/\d+/.exec(path)[0]) + 1}: ${name}` : name;
+// Returns the paths of the numbers along the axes of a map, each with its range.
+function axesOfMap({ x, y, to_rpm }) {
+  return [x, y ?? { path: "operating_rpm", values: [0, to_rpm] }].map(({ path, values }) => {
+    const [of, back] = values[0] > 0 && values.at(-1) >= 10 * values[0] ? [Math.log, Math.exp] : [Number, Number];
+    const [least, most] = [values[0], values.at(-1)].map(of);
+    return { path, range: { at: (share) => back(least + share * (most - least)), share: (value) => (of(value) - least) / (most - least) } };
+  });
 }
 
 // Longest time of a computation that starts without being asked for.
 const CHEAP_MS = 3000;
 
-// Those with `isBegun` may be cheap: they start when their tab is opened and when the scene changes.
+// Tabs, each a question of a designer, with the part of the saw that decides it and its tasks. Tasks with `isBegun` may be
+// cheap: they start when their tab is opened and when the scene changes.
+const TABS = [
+  { name: "chart", title: "Chart", tasks: [] },
+  { name: "cut", title: "Cut", part: "cut", tasks: ["cut", "washboard"] },
+  { name: "motion", title: "Run-up and response", part: "runup", tasks: ["runup", "response"] },
+  { name: "guides", title: "Guides", part: "guides", tasks: ["gap", "fit", "place"] },
+  { name: "spread", title: "Tolerances and map", part: "blade", tasks: ["study", "map"] },
+];
 const TASKS = [
   { name: "cut", isBegun: true, title: "Cut", part: "cut", what: "The blade before, during and after the cut: history at the probe, verdicts over speed and force." },
   { name: "runup", isBegun: true, title: "Run-up", part: "runup", what: "The blade run up under a lateral force: deflection at the probe, and what each band of instability adds." },
@@ -48,47 +61,46 @@ const TASKS = [
 ];
 
 export class Tasks {
-  #panels = new Map();
+  #groups = new Map();
 
-  // Among `listeners`, `onScene(scene)` takes over a resulting saw, `inWords(refusal)` returns the text of a refusal,
-  // and `nameOf(file)` the name of a saved file.
-  constructor(tabs, panels, chartPanel, state, begun, listeners) {
+  // Among `listeners`, `onTab(part)` is called with the part that decides the question of a tab, `onScene(scene)` takes
+  // over a resulting saw, `inWords(refusal)` returns the text of a refusal,
+  // `nameOf(file)` the name of a saved file, and `colours()` the colours of the page.
+  constructor(tabs, panels, state, begun, listeners) {
     this.tabs = tabs;
-    this.panels = panels;
-    this.chartPanel = chartPanel;
-    this.state = state;
-    this.begun = begun;
-    this.listeners = listeners;
-    const all = [{ name: "chart", title: "Chart" }, ...TASKS];
-    for (const { name, title } of all) {
-      const tab = node("button", { type: "button", id: `tab-${name}`, textContent: title });
-      tab.setAttribute("role", "tab");
-      tab.setAttribute("aria-controls", `panel-${name}`);
-      tab.addEventListener("click", () => this.show(name));
+    for (const { name, title, part, tasks } of TABS) {
+      const tab = node("button", { type: "button", role: "tab", id: `tab-${name}`, textContent: title });
+      tab.setAttribute("aria-controls", `group-${name}`);
+      tab.addEventListener("click", () => {
+        this.show(name);
+        if (part) listeners.onTab(part);
+      });
       tabs.append(tab);
+      const group = panels.querySelector(`#group-${name}`) ?? node("div", { id: `group-${name}`, role: "tabpanel" });
+      group.setAttribute("aria-labelledby", tab.id);
+      panels.append(group);
+      const own = tasks.map((one) => new Task(group, TASKS.find((entry) => entry.name === one), state, begun, listeners));
+      this.#groups.set(name, { tab, group, tasks: own });
     }
     tabs.addEventListener("keydown", (event) => this.#walk(event));
-    this.#panels.set("chart", chartPanel);
-    for (const entry of TASKS) this.#panels.set(entry.name, this.#panel(entry));
     this.show("chart");
   }
 
   show(name) {
-    for (const [own, panel] of this.#panels) {
+    for (const [own, { tab, group }] of this.#groups) {
       const chosen = own === name;
-      panel.hidden = !chosen;
-      const tab = this.tabs.querySelector(`#tab-${own}`);
+      group.hidden = !chosen;
       tab.setAttribute("aria-selected", String(chosen));
       tab.tabIndex = chosen ? 0 : -1;
       // On a narrow screen, the tabs are one row that is scrolled to the chosen tab.
       if (chosen) this.tabs.scrollLeft = tab.offsetLeft - 0.5 * (this.tabs.clientWidth - tab.clientWidth);
     }
-    this.#panels.get(name).task?.refresh();
+    this.changed();
   }
 
   // Updates the visible tab after a change of the scene. An answer for an earlier scene is marked as such.
   changed() {
-    for (const panel of this.#panels.values()) panel.task?.refresh();
+    for (const { group, tasks } of this.#groups.values()) if (!group.hidden) for (const one of tasks) one.refresh();
   }
 
   // The left and right arrow keys change the tab, as is usual for lists of tabs.
@@ -101,22 +113,13 @@ export class Tasks {
     next.click();
     event.preventDefault();
   }
-
-  #panel(entry) {
-    const panel = node("div", { id: `panel-${entry.name}`, hidden: true });
-    panel.setAttribute("role", "tabpanel");
-    panel.setAttribute("aria-labelledby", `tab-${entry.name}`);
-    panel.task = new Task(panel, entry, this.state, this.begun, this.listeners);
-    this.panels.append(panel);
-    return panel;
-  }
 }
 
-// One tab: the inputs, the progress and the answer of a task.
+// One task: the inputs, the progress and the answer of a task.
 class Task {
   #abort = null;
-  #scene = null;
-  // Scene that was computed last, also without an answer.
+  #saw = null;
+  // Saw that was computed last, also without an answer.
   #tried = null;
   #isCheap = true;
   // Fields for the tolerances of a study, each with its unit; empty for other tasks.
@@ -124,8 +127,9 @@ class Task {
   // Select elements for the axes of a map; empty for other tasks.
   axes = [];
 
-  constructor(panel, entry, state, { needs, tolerances }, { onScene, inWords, nameOf }) {
-    this.panel = panel;
+  constructor(group, entry, state, { needs, tolerances }, { onScene, inWords, nameOf, colours }) {
+    const panel = node("section", { id: `panel-${entry.name}`, ariaLabel: entry.title });
+    group.append(panel);
     this.entry = entry;
     this.state = state;
     this.needs = needs;
@@ -133,6 +137,10 @@ class Task {
     this.onScene = onScene;
     this.inWords = inWords;
     this.nameOf = nameOf;
+    this.colours = colours;
+    // Figures of the answer that are drawn from data, and the axes of a map.
+    this.figures = [];
+    this.mapped = [];
     this.inputs = node("div", { className: "inputs" });
     this.missing = node("p", { className: "remark" });
     this.start = node("button", { type: "button", textContent: "Compute" });
@@ -150,12 +158,12 @@ class Task {
     this.start.addEventListener("click", () => this.#run());
     this.stop.addEventListener("click", () => this.#abort?.abort());
     const row = node("p", { className: "start" }, this.start, " ", this.stop, " ", this.bar, " ", this.so_far);
-    panel.append(node("p", { className: "remark", textContent: entry.what }), this.missing, this.inputs, row, this.fault, this.old, this.answer);
+    const title = node("h2", { textContent: entry.title });
+    panel.append(title, explain(node("p", { className: "remark", textContent: entry.what })), this.missing, this.inputs, row, this.fault, this.old, this.answer);
   }
 
-  // Updates the tab for the present scene: missing parts, inputs, and whether the answer is for an earlier scene.
+  // Updates the task for the present scene: missing parts, inputs, and whether the answer is for an earlier scene.
   refresh() {
-    if (this.panel.hidden) return;
     const { name, part } = this.entry;
     const scene = this.state.scene;
     const isPartMissing = part !== undefined && !get(scene, part);
@@ -170,14 +178,14 @@ class Task {
     }
     this.start.disabled = isPartMissing || missing !== "";
     if (hadFocus) (this.missing.querySelector("button") ?? this.start).focus();
-    this.old.hidden = this.#scene === null || this.#scene === JSON.stringify(scene);
+    this.old.hidden = this.#saw === null || this.#keyOf(JSON.parse(this.#saw)) === this.#keyOf(scene);
     this.answer.classList.toggle("earlier", !this.old.hidden);
     this.#tellOutline();
     if (this.entry.name === "study") this.#offerTolerances(scene);
     if (this.entry.name === "map") this.#offerAxes(scene);
     if (this.entry.name === "place" && !this.inputs.hasChildNodes()) this.#offerGoals();
     const isOpen = this.entry.isBegun && this.#isCheap && !this.start.disabled && this.stop.hidden;
-    if (isOpen && this.#tried !== JSON.stringify(scene)) this.#run(CHEAP_MS);
+    if (isOpen && this.#tried !== sawOf(scene)) this.#run(CHEAP_MS);
   }
 
   #offerGoals() {
@@ -238,12 +246,12 @@ class Task {
     this.fault.textContent = "";
     try {
       const asked = this.#asked();
-      const scene = JSON.stringify(asked.scene);
-      this.#tried = scene;
+      const saw = sawOf(asked.scene);
+      this.#tried = saw;
       const listeners = {
         onProgress: (told) => this.#tell(told),
         onFigures: (figures) => {
-          this.#scene = scene;
+          this.#saw = saw;
           this.#grow(figures);
         },
       };
@@ -259,7 +267,7 @@ class Task {
           this.#isCheap = performance.now() - begun < CHEAP_MS;
         });
       });
-      this.#scene = scene;
+      this.#saw = saw;
       this.#show(answer);
     } catch (error) {
       if (error instanceof Refused) this.fault.textContent = this.inWords(error);
@@ -317,8 +325,14 @@ class Task {
       take.addEventListener("click", () => this.onScene(scene));
       tools.prepend(take);
     }
-    const pictures = figures.map(([file, svg]) => {
-      const picture = node("img", { src: pictureOf(svg), alt: `${file.replace(".svg", "").replaceAll("-", " ")}; the words above have its numbers` });
+    const click = this.entry.name === "map" ? (shares) => this.#take(shares) : null;
+    if (click) this.mapped = axesOfMap(report);
+    this.figures = [];
+    const pictures = figures.map(([file, svg, chart]) => {
+      const words = file.replace(".svg", "").replaceAll("-", " ");
+      const figure = chart && new Figure(chart, words, this.colours, click);
+      if (figure) this.figures.push(figure);
+      const picture = figure?.place ?? node("img", { src: pictureOf(svg), alt: `${words}; the words have its numbers` });
       const link = node("button", { type: "button", textContent: `Save ${file}` });
       link.addEventListener("click", () => download(this.nameOf(file), new Blob([svg], { type: "image/svg+xml" })));
       return node("figure", {}, picture, link);
@@ -328,9 +342,23 @@ class Task {
     this.#tellOutline();
   }
 
-  // Shows the answer in the units of the form.
+  // Shows the answer in the units of the form and the colours of the page.
   #tellOutline() {
     this.card.replaceChildren(...outline(this.outline));
+    const shares = this.mapped.map(({ path, range }) => range.share(get(this.state.scene, path)));
+    for (const figure of this.figures) figure.draw(shares);
+  }
+
+  // Sets the numbers of a map to those at shares of its axes.
+  #take(shares) {
+    this.state.change((scene) => this.mapped.forEach(({ path, range }, k) => set(scene, path, Number(range.at(shares[k]).toPrecision(4)))));
+  }
+
+  // Returns the saw without the numbers along the axes of the map that is shown, which contains all of their values.
+  #keyOf(scene) {
+    const made = clone(scene);
+    for (const { path } of this.mapped) set(made, path, 0);
+    return sawOf(made);
   }
 }
 

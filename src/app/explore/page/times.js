@@ -9,9 +9,9 @@ export class Times {
   computed = [];
   // Parts of the times of drafts.
   parts = [];
-  // Scene of the painted chart as text; null if the chart is a draft.
+  // Saw of the painted chart as text; null if the chart is a draft.
   painted = null;
-  // Scene of the painted chart as text, also of a draft.
+  // Saw of the painted chart as text, also of a draft.
   newest = null;
 
   // Measures results before their chart. Moves of an earlier request for which such results were shown are not counted
@@ -33,8 +33,8 @@ export class Times {
       this.latencies[kind].push(...request.stamps.map((stamp) => now - stamp));
       if (request.released !== undefined) this.latencies.release.push(now - request.released);
       this.computed.push([kind, computing]);
-      this.painted = request.draft ? null : request.text;
-      this.newest = request.text;
+      this.painted = request.draft ? null : request.saw;
+      this.newest = request.saw;
     });
   }
 }

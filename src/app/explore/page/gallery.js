@@ -1,0 +1,51 @@
+// Cards of saws: all examples in a dialog, and three ways to begin at the first visit.
+
+import { thumbnail } from "./blade.js";
+import { node } from "./dom.js";
+
+const VISITED = "sawflutter visited";
+// Saws of the first visit, by the starts of their names: that of the paper, and one with a collar.
+const FIRST = ["Guided spline arbor saw", "400 mm blade between collars"];
+
+function card(picture, name, words, onClick) {
+  const made = node("button", { type: "button", className: "card" }, picture, node("strong", { textContent: name }), node("span", { textContent: words }));
+  made.addEventListener("click", onClick);
+  return made;
+}
+
+function inWords({ blade, guides = [], mount }) {
+  const count = `${guides.length || "no"} pad${guides.length === 1 ? "" : "s"}`;
+  return `${Math.round(blade.outer_diameter_m * 1e3)} mm, ${count}, ${mount.kind}`;
+}
+
+// Fills the dialog; `choose(example)` opens a saw.
+export function offerExamples(dialog, examples, choose) {
+  const cards = examples.map((example) => card(thumbnail(example), example.name, inWords(example), () => {
+    dialog.close();
+    choose(example);
+  }));
+  dialog.querySelector(".cards").append(...cards);
+}
+
+// Fills and shows the cards of the first visit. The first card keeps the saw that is shown; `choose(example)` opens
+// another one, and `open()` a file. Returns whether this is the first visit.
+export function welcome(place, examples, { choose, open }) {
+  try {
+    if (localStorage.getItem(VISITED)) return false;
+    localStorage.setItem(VISITED, "1");
+  } catch {
+    return false;
+  }
+  const end = (then) => () => {
+    place.hidden = true;
+    then();
+  };
+  const [own, collar] = FIRST.map((start) => examples.find(({ name }) => name.startsWith(start)) ?? examples[0]);
+  const file = node("span", { className: "thumbnail", textContent: "+", ariaHidden: "true" });
+  place.querySelector(".cards").append(
+    card(thumbnail(own), "The saw of a paper", inWords(own), end(() => {})),
+    card(thumbnail(collar), "A saw with a collar", inWords(collar), end(() => choose(collar))),
+    card(file, "A saw of your own", "open a scene file", end(open)));
+  place.hidden = false;
+  return true;
+}
