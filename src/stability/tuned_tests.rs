@@ -98,7 +98,7 @@ fn constants() {
     let saws = saws();
     let reference: Vec<Answer> = saws.iter().map(|s| Answer::new(s).unwrap()).collect();
     println!(
-        "{:<48} {:>6}  {:>8} {:>8} {:>8} {:>8}  {:>5}  whole/projected/few/pairs",
+        "{:<48} {:>6}  {:>8} {:>8} {:>8} {:>8}  {:>5}  whole/free/waves/newton",
         "constant", "times", "critical", "edges", "peaks", "estimate", "wrong"
     );
     let total = |answers: &[Answer]| {
