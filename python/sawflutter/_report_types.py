@@ -16,9 +16,9 @@ InstabilityKind: TypeAlias = Literal["divergence", "flutter"]
 
 StabilityState: TypeAlias = Literal["stable", "divergence", "flutter", "outside_sweep"]
 
-ShapeOccasion: TypeAlias = Literal["critical_speed", "divergence", "flutter", "operating_speed", "asked_speed"]
-
 Direction: TypeAlias = Literal["forward", "backward", "reflected", "standing"]
+
+ShapeOccasion: TypeAlias = Literal["critical_speed", "divergence", "flutter", "operating_speed", "asked_speed"]
 
 Accuracy: TypeAlias = Literal["draft", "design", "reference"]
 
@@ -310,6 +310,52 @@ class Operating(Entry):
 
 
 @dataclass(frozen=True, eq=False, repr=False, kw_only=True)
+class WhirlMode(Entry):
+    """A mode of a rotating saw.
+
+    Attributes
+    ----------
+    frequency_hz : |Im λ|/2π in the space-fixed frame.
+    nodal_diameters : Nodal diameters of the dominant harmonic.
+    nodal_circles : Nodal circles of the dominant harmonic.
+    direction : Direction of the dominant harmonic, seen from space.
+    name : Nodal diameters, nodal circles and direction of the dominant harmonic in words.
+    growth_per_s : Re λ.
+    damping_ratio : ζ = −Re λ/|λ|; damped scenes only.
+    logarithmic_decrement : −2π Re λ/|Im λ|; damped scenes only, if the mode oscillates.
+    krein_sign : Krein sign: +1, −1 (reflected), or 0 where the mode is unstable or damped.
+    """
+
+    frequency_hz: float
+    nodal_diameters: int
+    nodal_circles: int
+    direction: Direction
+    name: str
+    growth_per_s: float
+    damping_ratio: float | None
+    logarithmic_decrement: float | None
+    krein_sign: int
+
+
+@dataclass(frozen=True, eq=False, repr=False, kw_only=True)
+class Whirl(Entry):
+    """The modes at one speed, and the verdict on it.
+
+    Attributes
+    ----------
+    rpm : Rotation speed.
+    verdict : Whether the saw is stable at this speed.
+    at_critical_rpm : Critical speed within 5 % of this speed; null if there is none.
+    modes : Modes, ascending in frequency.
+    """
+
+    rpm: float
+    verdict: StabilityState
+    at_critical_rpm: float | None = field(default=None)
+    modes: tuple[WhirlMode, ...]
+
+
+@dataclass(frozen=True, eq=False, repr=False, kw_only=True)
 class Complex(Entry):
     """A list of complex numbers.
 
@@ -410,6 +456,32 @@ class AccuracyEntry(Entry):
 
 
 @dataclass(frozen=True, eq=False, repr=False, kw_only=True)
+class Work(Entry):
+    """Numbers of eigenproblems solved, by kind.
+
+    Attributes
+    ----------
+    full_solves : Eigenproblems of the full model: Krylov iterations with a factorization each,
+        or dense ones.
+    structured_solves : Number of `full_solves` that used the block structure of the blade and
+        the few columns of its guides, in a time linear in the number of basis functions; scenes
+        with edge loads or dampers have no such structure.
+    reduced_solves : Eigenproblems of one number of nodal diameters of a free blade.
+    local_solves : Eigenproblems of the reduced model by waves.
+    refined_pairs : Modes and coalescences found by Newton's method on the reduced model.
+    heat_solves : Symmetric eigenproblems of the full model at other temperatures, for limits of
+        heat.
+    """
+
+    full_solves: int
+    structured_solves: int
+    reduced_solves: int
+    local_solves: int
+    refined_pairs: int
+    heat_solves: int
+
+
+@dataclass(frozen=True, eq=False, repr=False, kw_only=True)
 class Miscount(Entry):
     """Modes at a speed that are missing or superfluous according to a count on the full
     model.
@@ -463,8 +535,7 @@ class Certificate(Entry):
     speeds_checked : Number of speeds at which the Krein index was compared; for damped scenes,
         which have none, of speeds at which the number of growing modes was compared with that
         of the bands.
-    krein_violations : Number of speeds at which the comparison failed, also on the full model;
-        0 is expected.
+    krein_violations : Number of speeds at which the comparison failed; 0 is expected.
     violating_rpm : Speeds at which the comparison failed.
     full_basis_counts : Number of counts of eigenvalues on the full model, independent of the
         reduced model, with which the modes were compared.
@@ -473,7 +544,7 @@ class Certificate(Entry):
     miscounted_modes : Modes that, according to these counts, are missing or superfluous; none
         are expected.
     searched_again : Whether modes were missing at first, so that the bands were searched again
-        on the full model.
+        with more waves.
     mismatches : Speeds at which the list of bands contradicts the eigenvalues of the search or
         of the diagram; none are expected.
     gave_up : Whether the search for bands ended at its limit of work, so that bands may be
@@ -481,7 +552,8 @@ class Certificate(Entry):
     unproven_rpm : The remaining intervals, which were searched but not proven: from and to.
     unproven_counting_rpm : Parts of the remaining intervals in which, by this estimate, the
         growth of an undetected band could reach the threshold: from and to.
-    max_backward_error : Largest backward error, on the full model, of any mode of the diagram.
+    max_backward_error : Largest backward error, on the full model, of the modes at rest, at
+        three speeds of the diagram and at the peaks of the bands.
     proven_share : Share of the sweep that is proven to have no unlisted instability, rounded
         down to four digits; absent if no proof was tried.
     unproven_growth_per_s : Estimate, not proof, of the largest growth of an undetected band in
@@ -562,6 +634,43 @@ class Campbell(Entry):
     to_rpm: float
     complete_to_hz: float
     branches: tuple[Branch, ...]
+
+
+@dataclass(frozen=True, eq=False, repr=False, kw_only=True)
+class RootPath(Entry):
+    """One eigenvalue over the speeds of a [RootLoci].
+
+    Attributes
+    ----------
+    name : Waves of this mode.
+    growth_per_s : Re λ.
+    frequency_hz : Im λ/2π.
+    krein_sign : Krein sign: +1, −1, or 0 inside the band.
+    """
+
+    name: str
+    growth_per_s: FloatArray
+    frequency_hz: FloatArray
+    krein_sign: IntArray
+
+
+@dataclass(frozen=True, eq=False, repr=False, kw_only=True)
+class RootLoci(Entry):
+    """Eigenvalues around a flutter onset, in the complex plane.
+
+    Attributes
+    ----------
+    onset_rpm : Onset of the band.
+    end_rpm : End of the band.
+    rpm : Rotation speeds, ascending, from before the onset to after the end.
+    paths : The eigenvalues of both modes, which are the growing and the decaying one inside the
+        band.
+    """
+
+    onset_rpm: float
+    end_rpm: float
+    rpm: FloatArray
+    paths: tuple[RootPath, ...]
 
 
 @dataclass(frozen=True, eq=False, repr=False, kw_only=True)
@@ -757,10 +866,20 @@ class CampbellReport(Entry):
 
     Attributes
     ----------
+    sawflutter : Version of the program that wrote the report.
+    scene : The scene, as typed.
+    condition : Whether the saw idles or is in its cut: "idling", or "in the cut at 2800 rpm (4
+        teeth)".
     unusual_numbers : Numbers that no saw has, each with its key, the usual range, and the
         remedy. The results hold for the numbers as typed.
+    terms : Terms of the equation of motion that were assembled.
     modes_at_rest : Lowest oscillating modes of the blade at rest, ascending.
+    overdamped_modes_at_rest : Number of modes at rest that decay without oscillating
+        (overdamped), at rates up to 2π `campbell.complete_to_hz`; they are not listed.
     critical_speeds : Every critical speed up to the end of the sweep, ascending.
+    critical_speeds_without_damping : Whether `critical_speeds` are those of the saw without its
+        damping: with damping that turns with the blade no eigenvalue of the damped saw is zero
+        at any speed.
     bands : Bands of instability within the sweep, by onset; `certificate` gives the share of
         the sweep that is proven to have no others.
     flutter_rpm : Flutter speed: lowest speed at which flutter counts, see `counted_rpm` of the
@@ -772,21 +891,31 @@ class CampbellReport(Entry):
         if the scene requests them.
     operating : Comparison of the operating speed with the 85 % rule, if the scene has an
         operating speed.
+    whirl : Modes at one speed, on request.
     shapes : Shapes of the blade at every critical speed, at the peak of every band, at the
         operating speed and at further speeds, on request.
     accuracy : Size of the basis and estimated errors.
+    work : Number of eigenproblems solved.
     certificate : Checks of the list of bands: the share of the sweep that is proven to have no
         unlisted instability, intervals that were searched without proof, and disagreements.
     campbell : Branches over speed.
+    root_loci : Eigenvalues of the two modes that coalesce at the flutter speed, or else at the
+        onset of the first flutter band, over the speeds around it.
     membrane : Stress of heat, roll tension and manufacture, if the scene has any.
     sensitivities : Derivatives of critical speeds and onsets by numbers of the scene, on
         request.
     warnings : Remarks on the validity of the result.
     """
 
+    sawflutter: str
+    scene: SceneDict
+    condition: str = field(default="")
     unusual_numbers: tuple[str, ...] = field(default=())
+    terms: tuple[str, ...]
     modes_at_rest: tuple[RestMode, ...]
+    overdamped_modes_at_rest: int = field(default=0)
     critical_speeds: tuple[CriticalSpeed, ...]
+    critical_speeds_without_damping: bool = field(default=False)
     bands: tuple[Instability, ...] = field(metadata={"key": "instabilities"})
     flutter_rpm: float | None = field(metadata={"key": "flutter_speed_rpm"})
     first_merge_rpm: float | None
@@ -794,10 +923,13 @@ class CampbellReport(Entry):
     in_cut: InCut | None = field(default=None)
     excitation: Excitation | None = field(default=None)
     operating: Operating | None
+    whirl: Whirl | None
     shapes: tuple[EventShape, ...] = field(default=())
     accuracy: AccuracyEntry
+    work: Work
     certificate: Certificate
     campbell: Campbell
+    root_loci: RootLoci | None
     membrane: Membrane | None
     sensitivities: tuple[Sensitivity, ...]
     warnings: tuple[str, ...]
@@ -848,6 +980,10 @@ class CheckReport(Entry):
 
     Attributes
     ----------
+    sawflutter : Version of the program that wrote the report.
+    scene : The scene, as typed.
+    condition : Whether the saw idles or is in its cut: "idling", or "in the cut at 2800 rpm (4
+        teeth)".
     unusual_numbers : Numbers that no saw has, each with its key, the usual range, and the
         remedy. The results hold for the numbers as typed.
     accept_unusual : Whether a saw with unusual numbers may pass.
@@ -871,6 +1007,9 @@ class CheckReport(Entry):
     warnings : Remarks on the validity of the result.
     """
 
+    sawflutter: str
+    scene: SceneDict
+    condition: str = field(default="")
     unusual_numbers: tuple[str, ...] = field(default=())
     accept_unusual: bool = field(default=False)
     passed: bool
@@ -946,11 +1085,15 @@ class CompareReport(Entry):
 
     Attributes
     ----------
+    sawflutter : Version of the program that wrote the report.
+    scene : The first scene, with which the others are compared.
     saws : The saws.
     differences : Keys of the scenes that are not the same in all of them; names, notes and
         measured frequencies are not compared.
     """
 
+    sawflutter: str
+    scene: SceneDict
     saws: tuple[Compared, ...]
     differences: tuple[Difference, ...]
 
@@ -1205,6 +1348,9 @@ class CutReport(Entry):
 
     Attributes
     ----------
+    sawflutter : Version of the program that wrote the report.
+    scene : The scene, as typed.
+    condition : The cut of the report: "in the cut at 1800 and 2800 rpm (4 teeth)".
     unusual_numbers : Numbers that no saw has, each with its key, the usual range, and the
         remedy. The results hold for the numbers as typed.
     degrees_of_freedom : Size of the basis.
@@ -1218,6 +1364,9 @@ class CutReport(Entry):
     warnings : Remarks on the forces and on the validity of the result.
     """
 
+    sawflutter: str
+    scene: SceneDict
+    condition: str = field(default="")
     unusual_numbers: tuple[str, ...] = field(default=())
     degrees_of_freedom: int
     flutter_threshold_per_s: float
@@ -1339,6 +1488,10 @@ class DeflectReport(Entry):
 
     Attributes
     ----------
+    sawflutter : Version of the program that wrote the report.
+    scene : The scene, as typed.
+    condition : Whether the saw idles or is in its cut: "idling", or "in the cut at 2800 rpm (4
+        teeth)".
     unusual_numbers : Numbers that no saw has, each with its key, the usual range, and the
         remedy. The results hold for the numbers as typed.
     degrees_of_freedom : Size of the basis.
@@ -1366,6 +1519,9 @@ class DeflectReport(Entry):
     warnings : Remarks on the validity of the result.
     """
 
+    sawflutter: str
+    scene: SceneDict
+    condition: str = field(default="")
     unusual_numbers: tuple[str, ...] = field(default=())
     degrees_of_freedom: int
     shapes: int
@@ -1475,6 +1631,10 @@ class FitReport(Entry):
 
     Attributes
     ----------
+    sawflutter : Version of the program that wrote the report.
+    scene : The fitted scene.
+    condition : Whether the saw idles or is in its cut: "idling", or "in the cut at 2800 rpm (4
+        teeth)".
     unusual_numbers : Numbers that no saw has, each with its key, the usual range, and the
         remedy. The results hold for the numbers as typed.
     source : Source of the measured frequencies.
@@ -1496,6 +1656,9 @@ class FitReport(Entry):
     warnings : Remarks on the validity of the result.
     """
 
+    sawflutter: str
+    scene: SceneDict
+    condition: str = field(default="")
     unusual_numbers: tuple[str, ...] = field(default=())
     source: str
     confidence: float
@@ -1830,6 +1993,10 @@ class GapReport(Entry):
 
     Attributes
     ----------
+    sawflutter : Version of the program that wrote the report.
+    scene : The scene, as typed.
+    condition : Whether the saw idles or is in its cut: "idling", or "in the cut at 2800 rpm (4
+        teeth)".
     unusual_numbers : Numbers that no saw has, each with its key, the usual range, and the
         remedy. The results hold for the numbers as typed.
     degrees_of_freedom : Size of the basis.
@@ -1851,6 +2018,9 @@ class GapReport(Entry):
     warnings : Remarks on the validity of the result.
     """
 
+    sawflutter: str
+    scene: SceneDict
+    condition: str = field(default="")
     unusual_numbers: tuple[str, ...] = field(default=())
     degrees_of_freedom: int
     from_rpm: float
@@ -1938,6 +2108,10 @@ class MapReport(Entry):
 
     Attributes
     ----------
+    sawflutter : Version of the program that wrote the report.
+    scene : The scene, as typed.
+    condition : Whether the saw idles or is in its cut: "idling", or "in the cut at 2800 rpm (4
+        teeth)".
     unusual_numbers : Numbers that no saw has, each with its key, the usual range, and the
         remedy.
     x : The number along the horizontal axis.
@@ -1954,6 +2128,9 @@ class MapReport(Entry):
     warnings : Remarks on the validity of the result.
     """
 
+    sawflutter: str
+    scene: SceneDict
+    condition: str = field(default="")
     unusual_numbers: tuple[str, ...] = field(default=())
     x: MapAxis
     y: MapAxis | None
@@ -2124,6 +2301,10 @@ class PlaceReport(Entry):
 
     Attributes
     ----------
+    sawflutter : Version of the program that wrote the report.
+    scene : The scene with the best numbers.
+    condition : Whether the saw idles or is in its cut: "idling", or "in the cut at 2800 rpm (4
+        teeth)".
     unusual_numbers : Numbers that no saw has, each with its key, the usual range, and the
         remedy. The results hold for the numbers as typed.
     goal : The quantity that was maximized.
@@ -2162,6 +2343,9 @@ class PlaceReport(Entry):
     warnings : Remarks on the validity of the result.
     """
 
+    sawflutter: str
+    scene: SceneDict
+    condition: str = field(default="")
     unusual_numbers: tuple[str, ...] = field(default=())
     goal: Goal
     min_critical_rpm: float | None
@@ -2293,6 +2477,10 @@ class ResponseReport(Entry):
 
     Attributes
     ----------
+    sawflutter : Version of the program that wrote the report.
+    scene : The scene, as typed.
+    condition : Whether the saw idles or is in its cut: "idling", or "in the cut at 2800 rpm (4
+        teeth)".
     unusual_numbers : Numbers that no saw has, each with its key, the usual range, and the
         remedy. The results hold for the numbers as typed.
     degrees_of_freedom : Size of the basis.
@@ -2317,6 +2505,9 @@ class ResponseReport(Entry):
     warnings : Remarks on the validity of the result.
     """
 
+    sawflutter: str
+    scene: SceneDict
+    condition: str = field(default="")
     unusual_numbers: tuple[str, ...] = field(default=())
     degrees_of_freedom: int
     from_rpm: float
@@ -2404,6 +2595,10 @@ class RunUpReport(Entry):
 
     Attributes
     ----------
+    sawflutter : Version of the program that wrote the report.
+    scene : The scene, as typed.
+    condition : Whether the saw idles or is in its cut: "idling", or "in the cut at 2800 rpm (4
+        teeth)".
     unusual_numbers : Numbers that no saw has, each with its key, the usual range, and the
         remedy. The results hold for the numbers as typed.
     degrees_of_freedom : Size of the basis.
@@ -2428,6 +2623,9 @@ class RunUpReport(Entry):
     warnings : Remarks on the validity of the result.
     """
 
+    sawflutter: str
+    scene: SceneDict
+    condition: str = field(default="")
     unusual_numbers: tuple[str, ...] = field(default=())
     degrees_of_freedom: int
     from_rpm: float
@@ -2699,6 +2897,10 @@ class StudyReport(Entry):
 
     Attributes
     ----------
+    sawflutter : Version of the program that wrote the report.
+    scene : The scene without deviations, as typed.
+    condition : Whether the saw idles or is in its cut: "idling", or "in the cut at 2800 rpm (4
+        teeth)".
     unusual_numbers : Numbers that no saw has, each with its key, the usual range, and the
         remedy. The results hold for the numbers as typed.
     study : The study, as typed.
@@ -2719,6 +2921,9 @@ class StudyReport(Entry):
         digits of a speed may differ between them.
     """
 
+    sawflutter: str
+    scene: SceneDict
+    condition: str = field(default="")
     unusual_numbers: tuple[str, ...] = field(default=())
     study: StudyDict
     swept_to_rpm: float
@@ -2821,6 +3026,9 @@ class WashboardReport(Entry):
 
     Attributes
     ----------
+    sawflutter : Version of the program that wrote the report.
+    scene : The scene, as typed.
+    condition : The cut of the verdict: "in the cut at 2800 rpm (4 teeth)".
     unusual_numbers : Numbers that no saw has, each with its key, the usual range, and the
         remedy. The results hold for the numbers as typed.
     rpm : Rotation speed of the verdict.
@@ -2849,6 +3057,9 @@ class WashboardReport(Entry):
     warnings : Remarks on the validity of the result.
     """
 
+    sawflutter: str
+    scene: SceneDict
+    condition: str = field(default="")
     unusual_numbers: tuple[str, ...] = field(default=())
     rpm: float
     verdict: Verdict

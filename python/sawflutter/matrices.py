@@ -144,8 +144,17 @@ class Matrices(Entry):
     def response(
         self, rpm: Number, frequency_hz: npt.ArrayLike, *, inputs: npt.ArrayLike, outputs: npt.ArrayLike
     ) -> ComplexArray:
-        """Deflections in m at points for forces of one newton at others, at frequencies:
-        :meth:`StateSpace.response` of :meth:`state_space`."""
+        """Deflections in m at points for forces of one newton at others, at a speed and at
+        frequencies: their size and phase.
+
+        Parameters
+        ----------
+        rpm, inputs, outputs
+            As in :meth:`state_space`.
+        frequency_hz : array_like
+            Frequencies in space. The result has their shape, with outputs and inputs as its last
+            axes.
+        """
         return self.state_space(rpm, inputs=inputs, outputs=outputs).response(frequency_hz)
 
     def run_time_response(
@@ -158,8 +167,18 @@ class Matrices(Entry):
         outputs: npt.ArrayLike,
         to_hz: Number | None = None,
     ) -> FloatArray:
-        """Deflections in m at points over time: :meth:`StateSpace.time_response` of
-        :meth:`state_space`."""
+        """Deflections in m at points over time, from rest, under forces at others that are linear
+        between the times; needs SciPy.
+
+        Parameters
+        ----------
+        rpm, inputs, outputs, to_hz
+            As in :meth:`state_space`.
+        forces_n : array_like
+            Forces at each time, of the shape (times, inputs).
+        times_s : array_like
+            Ascending times at even steps.
+        """
         space = self.state_space(rpm, inputs=inputs, outputs=outputs, to_hz=to_hz)
         return space.time_response(forces_n, times_s)
 

@@ -120,8 +120,15 @@ class Peaks(Entry):
         return rows
 
     def to_csv(self, path: str | os.PathLike[str], rows: Sequence[tuple[float, Sequence[float]]]) -> None:
-        """Writes the result of :meth:`rows`, or several such lists in one, as a table for ``sawflutter
-        fit``, with blanks for NaN."""
+        """Writes rows as a table for ``sawflutter fit``, with blanks for NaN.
+
+        Parameters
+        ----------
+        path : str or path
+            The file.
+        rows : sequence
+            The result of :meth:`rows`, or several such lists in one.
+        """
         most = max((len(hz) for _, hz in rows), default=0)
         names = ",".join(["rpm", *(f"f{place}" for place in range(1, most + 1))])
         text = f"{names}\n{lines(rows)}"

@@ -91,8 +91,13 @@ class Record(Entry):
         return array(np.arange(len(self.samples)) / self.rate_hz)
 
     def between(self, from_s: Number, to_s: Number) -> Record:
-        """Part of the record from a time to another, such as its run-up, or that after one of several
-        taps."""
+        """Part of the record, such as its run-up, or the time after one of several taps.
+
+        Parameters
+        ----------
+        from_s, to_s : float
+            Begin and end.
+        """
         begin, end = number("from_s", from_s), number("to_s", to_s)
         within = np.flatnonzero((self.time_s >= begin) & (self.time_s <= end))
         if len(within) < 2:

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any, Literal
 
 import numpy as np
 
+from . import _native
 from ._extras import extra, read
 from ._report_types import StudyReport
 from ._result import Result

@@ -45,13 +45,6 @@ RENAMED = {
     "instabilities": "bands",
 }
 
-# Keys of reports without an attribute, because another method gives the same, or because they concern the program; the
-# dict of a report has them.
-HIDDEN = {
-    "sawflutter", "scene", "condition", "terms", "work", "whirl", "root_loci", "overdamped_modes_at_rest",
-    "critical_speeds_without_damping",
-}  # fmt: skip
-
 Schema = dict[str, Any]
 PLAIN = {"number": "float", "integer": "int", "string": "str", "boolean": "bool"}
 
@@ -297,8 +290,6 @@ class ReportTypes:
         said += ["", "    Attributes", "    ----------"]
         fields = list[str]()
         for key, of, there in ordered(schema):
-            if name.endswith("Report") and key in HIDDEN:
-                continue
             kind = self.type_of(command, of)
             if not there and "None" not in kind:
                 kind += " | None"

@@ -1,7 +1,6 @@
 //! Maximum of a smooth function of the speed: the largest growth of a band.
 
 use super::interpolation::Cubic;
-use crate::model::tuning::Tuned;
 use crate::modes::SpectrumError;
 
 /// A value of the function with its slope.
@@ -15,8 +14,9 @@ pub struct Sample {
     pub slope: f64,
 }
 
-/// Samples are added until the cubics predict an increase of the maximum below this share of it.
-const TOLERANCE: Tuned = Tuned::new("stability/maximum::TOLERANCE", 1e-5);
+/// Samples are added until the cubics predict an increase of the maximum below this share of it: no drawn growth rate may exceed the
+/// listed maximum visibly.
+const TOLERANCE: f64 = 1e-10;
 /// Largest number of added samples.
 const MOST_SAMPLES: usize = 24;
 
@@ -46,7 +46,7 @@ pub fn maximize(
         let Some((place, [speed, value])) = predicted else {
             break;
         };
-        if value <= best.value * (1.0 + TOLERANCE.get()) {
+        if value <= best.value * (1.0 + TOLERANCE) {
             break;
         }
         let Some(sample) = f(speed)? else { break };

@@ -292,7 +292,12 @@ pub fn curve(report: &Report, band: &InstabilityBand) -> Vec<[f64; 2]> {
         !cut_short && next[k].is_none_or(|s| s[1] <= NEGLIGIBLE_PER_S)
     };
     let found = Coalescence::new(ends, [at_zero(0), at_zero(1)], squares);
-    found.map_or(Vec::new(), |found| found.growth())
+    let mut curve = found.map_or(Vec::new(), |found| found.growth());
+    // Beside the peak the interpolation may exceed it by 1e-5.
+    curve
+        .iter_mut()
+        .for_each(|[_, growth]| *growth = growth.min(band.peak_growth_per_s));
+    curve
 }
 
 /// Whether a branch has a sample within a band with more than half of its largest growth.
