@@ -111,8 +111,8 @@ impl Guided<'_> {
     }
 
     /// Frequency of the highest reflected wave at the top speed, with a margin for waves that may coalesce with
-    /// it; 0 below the first critical speed. For a damped blade the frequency is that
-    /// without damping, because damping destabilizes reflected waves.
+    /// it; 0 below the first critical speed. For a damped blade it is that without damping, because damping destabilizes
+    /// reflected waves.
     fn reflected_height(&self, speed: f64) -> Result<f64, SpectrumError> {
         let Guided {
             system,

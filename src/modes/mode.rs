@@ -1,11 +1,11 @@
 //! Kind of a mode, and sign of its energy.
 
-use faer::{Col, Mat, c64};
+use faer::{Col, c64};
 
 use crate::model::system::GyroscopicSystem;
 
 use super::companion::time_scale;
-use super::vectors::{Eigenpair, halves, real_times, smallest};
+use super::vectors::{Eigenpair, halves, product, real_times, smallest};
 
 /// Kind of an eigenvalue with Im λ ≥ 0.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -131,41 +131,44 @@ impl Mode {
 
     /// A mode with λ, slopes and action, those of a wave λ = iω, as the kind of mode that it is. The decaying partner of a divergent
     /// mode is none, because it belongs to the same ±ω pair.
-    pub(super) fn classified(mut self, speed_rad_per_s: f64, is_undamped: bool) -> Option<Self> {
+    pub(super) fn classified(self, speed_rad_per_s: f64, is_undamped: bool) -> Option<Self> {
+        use ModeKind::{Damped, Decaying, Divergent, Flutter, Negative, Positive};
         let noise = GROWTH_NOISE * (self.lambda.norm() + speed_rad_per_s.abs());
         let [grows, decays, oscillates] = [
             self.lambda.re > noise,
             self.lambda.re < -noise,
             self.lambda.im > noise,
         ];
-        self.kind = match (is_undamped, oscillates) {
-            (false, _) => ModeKind::Damped,
-            (true, true) if grows => ModeKind::Flutter,
-            (true, true) if decays => ModeKind::Decaying,
-            (true, true) if self.action < 0 => ModeKind::Negative,
-            (true, true) => ModeKind::Positive,
-            (true, false) if grows => ModeKind::Divergent,
+        let kind = match (is_undamped, oscillates) {
+            (false, _) => Damped,
+            (true, true) if grows => Flutter,
+            (true, true) if decays => Decaying,
+            (true, true) if self.action < 0 => Negative,
+            (true, true) => Positive,
+            (true, false) if grows => Divergent,
             (true, false) => return None,
         };
-        if !oscillates || grows && is_undamped {
-            self.action = 1;
-        }
-        match self.kind {
-            ModeKind::Decaying => self.action = -1,
-            ModeKind::Positive | ModeKind::Negative => self.lambda.re = 0.0,
-            _ => (),
-        }
-        if !matches!(
-            self.kind,
-            ModeKind::Positive | ModeKind::Negative | ModeKind::Damped
-        ) || !oscillates
-        {
-            self.frequency_slope = 0.0;
-        }
-        if !matches!(self.kind, ModeKind::Flutter | ModeKind::Divergent) {
-            self.growth_slope = c64::new(0.0, 0.0);
-        }
-        Some(self)
+        let is_wave = matches!(kind, Positive | Negative);
+        Some(Mode {
+            lambda: c64::new(if is_wave { 0.0 } else { self.lambda.re }, self.lambda.im),
+            kind,
+            frequency_slope: if is_wave || kind == Damped && oscillates {
+                self.frequency_slope
+            } else {
+                0.0
+            },
+            growth_slope: if matches!(kind, Flutter | Divergent) {
+                self.growth_slope
+            } else {
+                c64::ZERO
+            },
+            action: match kind {
+                Negative | Decaying => -1,
+                Damped if oscillates => self.action,
+                _ => 1,
+            },
+            ..self
+        })
     }
 
     /// Whether a mode of a damped blade decays without oscillating.
@@ -277,15 +280,9 @@ impl Forms {
     fn of(system: &GyroscopicSystem, pairs: &[Eigenpair]) -> Vec<Self> {
         let halves = halves(system.order(), pairs.iter().map(|(_, q)| q));
         let (turned, spun) = (&system.gyroscopic * &halves, &system.spin * &halves);
-        let form = |k: usize| {
-            let [re, im] = [2 * k, 2 * k + 1];
-            let dot = |x: usize, product: &Mat<f64>, y: usize| -> f64 {
-                halves.col(x).transpose() * product.col(y)
-            };
-            Forms {
-                gamma: dot(re, &turned, im) - dot(im, &turned, re),
-                spin: dot(re, &spun, re) + dot(im, &spun, im),
-            }
+        let form = |k: usize| Forms {
+            gamma: product(&halves, k, &turned, k).im,
+            spin: product(&halves, k, &spun, k).re,
         };
         (0..pairs.len()).map(form).collect()
     }

@@ -4,9 +4,7 @@ use faer::{Col, Mat};
 
 use crate::model::system::GyroscopicSystem;
 
-use super::full_model::FullModel;
 use super::residual::Lifted;
-use super::structured_stiffness;
 use super::vectors::{Eigenpair, halves, joined};
 
 /// A component projected on few orthonormal vectors.
@@ -21,9 +19,9 @@ pub struct Projection {
 }
 
 impl Projection {
-    /// Projects a component on orthonormal vectors, in less time if its structure is known.
-    pub fn new(system: &GyroscopicSystem, structure: Option<&FullModel>, basis: Mat<f64>) -> Self {
-        let products = structured_stiffness::times(system, structure, basis.as_ref());
+    /// Projects a component on orthonormal vectors.
+    pub fn new(system: &GyroscopicSystem, basis: Mat<f64>) -> Self {
+        let products = system.times(basis.as_ref());
         let reduced = products.onto(basis.as_ref());
         Projection {
             basis,

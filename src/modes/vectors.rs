@@ -44,6 +44,13 @@ pub fn joined(halves: &Mat<f64>, k: usize) -> Col<c64> {
     })
 }
 
+/// xᴴy of vector `x` of some [`halves`] and vector `y` of others.
+pub fn product(left: &Mat<f64>, x: usize, right: &Mat<f64>, y: usize) -> c64 {
+    let dot =
+        |a: usize, b: usize| -> f64 { left.col(2 * x + a).transpose() * right.col(2 * y + b) };
+    c64::new(dot(0, 0) + dot(1, 1), dot(0, 1) - dot(1, 0))
+}
+
 /// q/‖q‖; zero remains zero.
 pub fn unit(q: ColRef<'_, c64>) -> Col<c64> {
     let norm = q.norm_l2();

@@ -132,15 +132,7 @@ fn band(
             samples.insert(place, sample);
         }
     }
-    let mut known = samples.clone();
-    let found = maximize(samples, |speed| {
-        let sample = at(&known, speed)?;
-        let place = known.partition_point(|known| known.at < speed);
-        sample
-            .iter()
-            .for_each(|sample| known.insert(place, *sample));
-        Ok(sample)
-    })?;
+    let found = maximize(samples, at)?;
     let peak_growth_per_s = found.map_or(0.0, |found| found.value.max(0.0).sqrt());
     Ok(Instability {
         kind: InstabilityKind::Divergence,
@@ -154,7 +146,7 @@ fn band(
     })
 }
 
-/// A value between those of ascending samples.
+/// A value at a speed between those of ascending samples.
 fn between(known: &[Sample], speed: f64) -> f64 {
     let place = known.partition_point(|known| known.at < speed);
     match known.get(place.saturating_sub(1)..=place) {
@@ -162,7 +154,9 @@ fn between(known: &[Sample], speed: f64) -> f64 {
             let share = (speed - before.at) / (after.at - before.at);
             before.value + share * (after.value - before.value)
         }
-        _ => known.last().map_or(0.0, |last| last.value),
+        _ => known
+            .get(place.saturating_sub(1))
+            .map_or(0.0, |nearest| nearest.value),
     }
 }
 

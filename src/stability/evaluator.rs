@@ -103,27 +103,32 @@ impl<'a> SignatureEvaluator<'a> {
     /// # Errors
     /// [`SpectrumError`] when the eigenproblem fails.
     pub fn at(&self, speed_rad_per_s: f64) -> Result<Signature, SpectrumError> {
-        let modes = self.modes(speed_rad_per_s)?;
-        Ok(Signature::new(speed_rad_per_s, modes.iter()))
+        Ok(self.checked(speed_rad_per_s)?.signature())
     }
 
-    /// Modes of the signature at a speed.
-    fn modes(&self, speed_rad_per_s: f64) -> Result<Vec<Mode>, SpectrumError> {
+    /// Modes at a speed, with the checks of [`SignatureEvaluator::at`].
+    fn checked(&self, speed_rad_per_s: f64) -> Result<SolvedSpeed, SpectrumError> {
         self.tally.checked.fetch_add(1, Ordering::Relaxed);
-        let modes = self.model.all_modes(speed_rad_per_s)?;
-        if self.match_index(speed_rad_per_s, &modes) {
-            return Ok(modes);
+        let solved = self.solved(speed_rad_per_s)?;
+        if self.matches_index(&solved) {
+            return Ok(solved);
         }
         for share in [1.0 - BESIDE_COALESCENCE, 1.0 + BESIDE_COALESCENCE] {
-            let beside = share * speed_rad_per_s;
-            if self.match_index(beside, &self.model.all_modes(beside)?) {
-                return Ok(modes);
+            if self.matches_index(&self.solved(share * speed_rad_per_s)?) {
+                return Ok(solved);
             }
         }
         if let Ok(mut violations) = self.tally.violations.lock() {
             violations.push(speed_rad_per_s);
         }
-        Ok(modes)
+        Ok(solved)
+    }
+
+    fn solved(&self, speed_rad_per_s: f64) -> Result<SolvedSpeed, SpectrumError> {
+        Ok(SolvedSpeed {
+            speed_rad_per_s,
+            modes: self.model.all_modes(speed_rad_per_s)?,
+        })
     }
 
     /// Signature neither counted nor checked, for proposals that a proof checks.
@@ -131,8 +136,7 @@ impl<'a> SignatureEvaluator<'a> {
     /// # Errors
     /// [`SpectrumError`] when the eigenproblem fails.
     pub fn guess_at(&self, speed_rad_per_s: f64) -> Result<Signature, SpectrumError> {
-        let modes = self.model.all_modes(speed_rad_per_s)?;
-        Ok(Signature::new(speed_rad_per_s, modes.iter()))
+        Ok(self.solved(speed_rad_per_s)?.signature())
     }
 
     /// Squares of the eigenvalues at a speed, for a search by pieces. `None` next to a critical speed, where
@@ -147,13 +151,10 @@ impl<'a> SignatureEvaluator<'a> {
         {
             return Ok(None);
         }
-        let modes = self.modes(speed_rad_per_s)?;
-        let squares = self.squares(&modes);
+        let solved = self.checked(speed_rad_per_s)?;
+        let squares = self.squares(&solved.modes);
         if let Ok(mut seen) = self.seen.lock() {
-            seen.push(SolvedSpeed {
-                speed_rad_per_s,
-                modes,
-            });
+            seen.push(solved);
         }
         Ok(Some(Sample::of_squares(speed_rad_per_s, squares)))
     }
@@ -198,7 +199,7 @@ impl<'a> SignatureEvaluator<'a> {
         all
     }
 
-    /// Modes at all speeds of the search and of its checks, in no particular order, each speed once.
+    /// Modes at all speeds of the search and of its checks, ascending, each speed once.
     pub fn into_solved(self) -> Vec<SolvedSpeed> {
         let mut all = self.seen.into_inner().unwrap_or_default();
         all.extend(self.others.into_inner().unwrap_or_default());
@@ -224,20 +225,18 @@ impl<'a> SignatureEvaluator<'a> {
         speed_rad_per_s: f64,
         expected: c64,
     ) -> Result<Option<SignedMode>, SpectrumError> {
-        let signature = match self.seen_at(speed_rad_per_s) {
-            Some(known) => known,
-            None => match self.growing_next_to(speed_rad_per_s, expected) {
-                Some((lambda, slope)) => {
-                    let sign = Sign::Quadruple;
-                    return Ok(Some(SignedMode {
-                        sign,
-                        lambda,
-                        slope,
-                    }));
-                }
-                None => self.at(speed_rad_per_s)?,
-            },
-        };
+        let seen = self.seen_at(speed_rad_per_s);
+        if seen.is_none()
+            && let Some((lambda, slope)) = self.growing_next_to(speed_rad_per_s, expected)
+        {
+            let sign = Sign::Quadruple;
+            return Ok(Some(SignedMode {
+                sign,
+                lambda,
+                slope,
+            }));
+        }
+        let signature = seen.map_or_else(|| self.at(speed_rad_per_s), Ok)?;
         let away = |mode: &SignedMode| (mode.lambda - expected).norm();
         Ok(smallest(signature.quadruples, away))
     }
@@ -301,8 +300,11 @@ impl<'a> SignatureEvaluator<'a> {
 
     /// Whether the Krein index of modes equals the number of negative eigenvalues of the stiffness, which a
     /// separate symmetric eigenproblem on the full model gives.
-    fn match_index(&self, speed_rad_per_s: f64, modes: &[Mode]) -> bool {
-        krein_index(modes) == self.model.negative_stiffness_directions(speed_rad_per_s)
+    fn matches_index(&self, solved: &SolvedSpeed) -> bool {
+        let negative = self
+            .model
+            .negative_stiffness_directions(solved.speed_rad_per_s);
+        krein_index(&solved.modes) == negative
     }
 
     /// Signatures at many speeds, in parallel.
@@ -312,14 +314,8 @@ impl<'a> SignatureEvaluator<'a> {
     pub fn at_all(&self, speeds: &[f64]) -> Result<Vec<Signature>, SpectrumError> {
         let solved: Vec<SolvedSpeed> = speeds
             .par_iter()
-            .map(|&speed_rad_per_s| {
-                let modes = self.modes(speed_rad_per_s)?;
-                Ok(SolvedSpeed {
-                    speed_rad_per_s,
-                    modes,
-                })
-            })
-            .collect::<Result<_, SpectrumError>>()?;
+            .map(|&speed| self.checked(speed))
+            .collect::<Result<_, _>>()?;
         let signatures = solved.iter().map(SolvedSpeed::signature).collect();
         if let Ok(mut others) = self.others.lock() {
             others.extend(solved);

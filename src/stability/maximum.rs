@@ -22,13 +22,13 @@ const MOST_SAMPLES: usize = 24;
 
 /// The sample of the largest value. Samples are added to the given ones, which are at ascending speeds, where
 /// the cubics between neighbours predict a larger value; this finds a narrow second hump if the slopes show
-/// it. `None` without samples.
+/// it; `f` gives one at a speed from those that are known. `None` without samples.
 ///
 /// # Errors
 /// The errors of `f`.
 pub fn maximize(
     mut samples: Vec<Sample>,
-    mut f: impl FnMut(f64) -> Result<Option<Sample>, SpectrumError>,
+    mut f: impl FnMut(&[Sample], f64) -> Result<Option<Sample>, SpectrumError>,
 ) -> Result<Option<Sample>, SpectrumError> {
     let greatest = |samples: &[Sample]| {
         let greatest = samples.iter().max_by(|x, y| x.value.total_cmp(&y.value));
@@ -49,7 +49,9 @@ pub fn maximize(
         if value <= best.value * (1.0 + TOLERANCE) {
             break;
         }
-        let Some(sample) = f(speed)? else { break };
+        let Some(sample) = f(&samples, speed)? else {
+            break;
+        };
         samples.insert(place + 1, sample);
     }
     Ok(greatest(&samples))
@@ -93,7 +95,7 @@ mod tests {
             Sample { at, value, slope }
         };
         let samples = ends.iter().map(|at| sample(*at)).collect();
-        maximize(samples, |at| Ok(Some(sample(at))))
+        maximize(samples, |_, at| Ok(Some(sample(at))))
             .unwrap()
             .unwrap()
     }

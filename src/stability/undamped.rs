@@ -19,8 +19,8 @@ use crate::modes::{NamedCriticalSpeed, SpectralModel, SpectrumError, clear_range
 /// Number of even speeds at the start of the search for bands; the bands do not depend on it.
 pub(super) const SEARCH_SPEEDS: usize = 9;
 
-/// Computes modes at `count` even speeds and wherever bands and curves need more, the bands, and their
-/// checks.
+/// Computes the bands with their checks, and the modes of a chart: at the speeds of the search, beside them at those of `count` even
+/// ones, and wherever curves need more.
 pub(super) fn charted(
     model: &SpectralModel,
     range: SpeedRange,
@@ -92,7 +92,7 @@ fn speeds_beside(samples: &[SpeedSample], mut speeds: Vec<f64>) -> Vec<f64> {
 }
 
 fn signature_of(sample: &SpeedSample) -> Signature {
-    let modes = sample.modes.iter().map(|described| &described.mode);
+    let modes = sample.modes.iter().map(|named| &named.mode);
     Signature::new(sample.speed_rad_per_s, modes)
 }
 

@@ -8,11 +8,11 @@
 //!
 //! one LU factorization of F₀ and products with as many columns as unknowns are kept. λ is in units of the window.
 
-use faer::linalg::matmul::matmul;
 use faer::linalg::solvers::Solve;
-use faer::{Accum, Col, ColRef, Mat, MatRef, Par, Scale};
+use faer::{Col, Mat, Scale};
 
 use super::blade::Saw;
+use super::far_velocity::{FarVelocity, subtract_product};
 use super::near_block::Near;
 use super::pair::Pair;
 use crate::model::linalg::LinalgError;
@@ -44,8 +44,8 @@ type Turned = (usize, Mat<f64>);
 
 /// The equation of motion at a speed without its far waves.
 pub struct Reduced {
-    /// S₀, S₁, ….
-    pub terms: Vec<Mat<f64>>,
+    /// S₀, S₁, … side by side.
+    pub terms: Mat<f64>,
     /// G₀, G₁, … of the far waves.
     solved: Vec<Mat<f64>>,
 }
@@ -57,14 +57,12 @@ impl Reduced {
     /// [`LinalgError`].
     pub fn far(&self, is_conservative: bool) -> Result<Mat<f64>, LinalgError> {
         let rows = self.solved.first().map_or(0, Mat::nrows);
-        let far = Pair::new(side_by_side(&self.terms).as_ref(), is_conservative)?.map(
-            |Pair { x, b, .. }| {
-                let terms = self.solved.iter().rev();
-                terms.fold(Mat::zeros(rows, b.ncols()), |sum, term| {
-                    sum * &b - term * &x
-                })
-            },
-        );
+        let far = Pair::new(self.terms.as_ref(), is_conservative)?.map(|Pair { x, b, .. }| {
+            let terms = self.solved.iter().rev();
+            terms.fold(Mat::zeros(rows, b.ncols()), |sum, term| {
+                sum * &b - term * &x
+            })
+        });
         Ok(far.unwrap_or_else(|| Mat::zeros(rows, 0)))
     }
 }
@@ -165,7 +163,10 @@ impl Elimination {
         let far_waves = waves.end - size;
         let mut solved: Vec<Mat<f64>> = Vec::new();
         if far_waves == 0 {
-            return Reduced { terms, solved };
+            return Reduced {
+                terms: side_by_side(&terms),
+                solved,
+            };
         }
         let of_far = |matrix: &Mat<f64>| matrix.get(size.., size..).to_owned();
         let by_far = |matrix: &Mat<f64>| matrix.get(..size, size..).to_owned();
@@ -196,7 +197,7 @@ impl Elimination {
         let of_waves = solved.iter().map(|g| g.subrows(0, far_waves).to_owned());
         Reduced {
             solved: of_waves.collect(),
-            terms,
+            terms: side_by_side(&terms),
         }
     }
 
@@ -231,61 +232,12 @@ impl Elimination {
 }
 
 /// Matrices of one size side by side.
-fn side_by_side(terms: &[Mat<f64>]) -> Mat<f64> {
+pub fn side_by_side(terms: &[Mat<f64>]) -> Mat<f64> {
     let size = terms.first().map_or(0, Mat::ncols);
     let rows = terms.first().map_or(0, Mat::nrows);
     Mat::from_fn(rows, terms.len() * size, |i, k| {
         terms[k / size][(i, k % size)]
     })
-}
-
-/// F₁ of the far waves. Without dampers fixed in space it couples only waves of one number of nodal diameters, the cosine with the
-/// sine without any damping.
-enum FarVelocity {
-    /// Entries above rounding, by column: row and value.
-    Sparse(Vec<Vec<(usize, f64)>>),
-    /// All entries.
-    Dense(Mat<f64>),
-}
-
-/// Share of entries above which a matrix is multiplied as a dense one.
-const DENSE: f64 = 0.05;
-
-impl FarVelocity {
-    fn new(matrix: Mat<f64>) -> Self {
-        let rounding = f64::EPSILON * matrix.norm_max();
-        let of_column = |column: ColRef<'_, f64>| -> Vec<(usize, f64)> {
-            let entries = column.iter().copied().enumerate();
-            entries
-                .filter(|(_, entry)| entry.abs() > rounding)
-                .collect()
-        };
-        let columns: Vec<Vec<(usize, f64)>> = matrix.col_iter().map(of_column).collect();
-        let count: usize = columns.iter().map(Vec::len).sum();
-        if count as f64 > DENSE * (matrix.nrows() * matrix.ncols()) as f64 {
-            return FarVelocity::Dense(matrix);
-        }
-        FarVelocity::Sparse(columns)
-    }
-
-    fn subtract_product(&self, from: &mut Mat<f64>, right: &Mat<f64>) {
-        match self {
-            FarVelocity::Dense(matrix) => subtract_product(from, matrix.as_ref(), right),
-            FarVelocity::Sparse(columns) => {
-                for k in 0..right.ncols() {
-                    for (j, column) in columns.iter().enumerate() {
-                        for (i, entry) in column {
-                            from[(*i, k)] -= entry * right[(j, k)];
-                        }
-                    }
-                }
-            }
-        }
-    }
-}
-
-fn subtract_product(from: &mut Mat<f64>, left: MatRef<'_, f64>, right: &Mat<f64>) {
-    matmul(from.as_mut(), Accum::Add, left, right, -1.0, Par::Seq);
 }
 
 /// Vᵀ X with V block by block.

@@ -15,6 +15,7 @@ use faer::Mat;
 
 mod blade;
 mod elimination;
+mod far_velocity;
 mod modes;
 mod near_block;
 mod newton;
@@ -85,7 +86,7 @@ pub fn modes(
     let (terms, far): (Vec<_>, Vec<_>) = nodes.into_iter().unzip();
     let far: Vec<Mat<f64>> = far.into_iter().flatten().collect();
     let span = if undamped.is_some() { WHOLE } else { SPAN };
-    let projection = Projection::new(full, None, elimination.basis(&far, span));
+    let projection = Projection::new(full, elimination.basis(&far, span));
     if undamped.is_some() {
         return WaveModes::whole(projection, range, window);
     }

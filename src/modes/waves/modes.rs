@@ -7,6 +7,7 @@
 use faer::linalg::solvers::Solve;
 use faer::{Col, Mat, Scale, c64};
 
+use super::elimination::side_by_side;
 use super::roots::Root;
 use super::speed_series::{WaveModel, at_nodes};
 use crate::model::scene::SpeedRange;
@@ -67,11 +68,11 @@ impl WaveModes {
         let system = &projection.reduced;
         let near = system.order();
         let quadratic = |_, speed| {
-            Ok(vec![
+            Ok(side_by_side(&[
                 Scale(window.powi(-2)) * system.stiffness_at(speed),
                 Scale(window.recip()) * system.velocity_at(speed),
                 Mat::identity(near, near),
-            ])
+            ]))
         };
         let terms = at_nodes(range, quadratic)?;
         let model = WaveModel::of(&terms, range, vec![None; near], window, system);

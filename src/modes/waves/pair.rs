@@ -18,7 +18,7 @@ use faer::{Mat, MatRef, Par, Scale, Side, c64};
 
 use crate::model::linalg::{LinalgError, RealEigen};
 use crate::modes::half_order::{hamiltonian_eigenpairs, hamiltonian_matrix};
-use crate::modes::vectors::smallest;
+use crate::modes::vectors::{product, smallest};
 
 /// |λ| in windows between which the widest gap ends the pair: beyond it the series in λ is inaccurate, and an eigenvalue next to
 /// the end slows the iteration.
@@ -168,13 +168,8 @@ fn symmetric_states(terms: [MatRef<'_, f64>; QUADRATIC]) -> Result<Option<States
     for (k, lambda) in lambdas.iter().enumerate() {
         let mirrored =
             smallest(0..lambdas.len(), |i| (lambdas[*i] + lambda.conj()).norm()).unwrap_or(k);
-        let product = |all: &Mat<f64>| {
-            let dot = |x: usize, y: usize| -> f64 {
-                shapes.col(2 * mirrored + x).transpose() * all.col(2 * k + y)
-            };
-            c64::new(dot(0, 0) + dot(1, 1), dot(0, 1) - dot(1, 0))
-        };
-        let by_root = product(&by_velocity) + 2.0 * lambda * product(&by_inertia);
+        let form = |all: &Mat<f64>| product(&shapes, mirrored, all, k);
+        let by_root = form(&by_velocity) + 2.0 * lambda * form(&by_inertia);
         let is_real = lambda.im == 0.0;
         let at = states.values.len();
         for i in 0..size {

@@ -11,7 +11,7 @@ use super::pair::{END, Pair, inverse};
 use super::speed_series::WaveModel;
 use crate::model::linalg::{LinalgError, RealEigen};
 use crate::modes::error::SpectrumError;
-use crate::modes::vectors::joined;
+use crate::modes::vectors::{joined, product};
 
 /// An eigenvalue with Im λ ≥ 0 and its vector.
 #[derive(Debug, Clone)]
@@ -85,19 +85,10 @@ fn sloped(
     let mut powers = Mat::zeros(terms.ncols(), right.ncols());
     let mut by_root = Mat::zeros(terms.ncols(), right.ncols());
     for (k, i) in upper.iter().enumerate() {
-        let vector = joined(&right, k);
         let (mut power, mut before) = (c64::ONE, c64::ZERO);
         for (degree, row) in (0..terms.ncols()).step_by(size).enumerate() {
-            for (all, factor) in [(&mut powers, power), (&mut by_root, before * degree as f64)] {
-                let [re, im] = [2 * k, 2 * k + 1];
-                let below = |all: &mut Mat<f64>, column: usize, part: fn(c64) -> f64| {
-                    let entries = &mut all.col_as_slice_mut(column)[row..row + size];
-                    let pairs = entries.iter_mut().zip(vector.iter());
-                    pairs.for_each(|(entry, x)| *entry = part(factor * x));
-                };
-                below(all, re, |z| z.re);
-                below(all, im, |z| z.im);
-            }
+            place_multiple(&mut powers, row, &right, k, power);
+            place_multiple(&mut by_root, row, &right, k, before * degree as f64);
             (power, before) = (power * eigen.values[*i], power);
         }
     }
@@ -115,22 +106,24 @@ fn sloped(
                 c64::from(dot(0, 0))
             }
         };
-        // The sign of xᴴ(2ωM̃ − iC̃)x, where the skew part of C̃ acts alone.
-        let dot = |x: usize, product: &Mat<f64>, y: usize| -> f64 {
-            right.col(2 * k + x).transpose() * product.col(2 * k + y)
-        };
-        let turned = dot(0, &by_velocity, 1) - dot(1, &by_velocity, 0);
-        let inert = dot(0, &by_inertia, 0) + dot(1, &by_inertia, 1);
+        // xᴴ(2ωM̃ − iC̃)x, where the skew part of C̃ acts alone.
+        let turned = product(&right, k, &by_velocity, k).im;
+        let action = turned + 2.0 * mu.im * product(&right, k, &by_inertia, k).re;
         Root {
             lambda: mu,
             slope: -form(&moved) / form(&by_root),
-            action: if turned + 2.0 * mu.im * inert < 0.0 {
-                -1
-            } else {
-                1
-            },
+            action: if action < 0.0 { -1 } else { 1 },
             vector: joined(&right, k),
         }
     };
     Ok(upper.iter().enumerate().map(of).collect())
+}
+
+/// Writes a multiple of vector `k` of some halves into vector `k` of others, from a row on.
+fn place_multiple(all: &mut Mat<f64>, row: usize, halves: &Mat<f64>, k: usize, factor: c64) {
+    for i in 0..halves.nrows() {
+        let entry = factor * c64::new(halves[(i, 2 * k)], halves[(i, 2 * k + 1)]);
+        all[(row + i, 2 * k)] = entry.re;
+        all[(row + i, 2 * k + 1)] = entry.im;
+    }
 }

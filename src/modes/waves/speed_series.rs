@@ -59,19 +59,18 @@ pub struct WaveModel {
 }
 
 impl WaveModel {
-    /// A model from its terms L₀, L₁, … at the nodes, see [`at_nodes`], in units of the window.
+    /// A model from its terms L₀, L₁, … side by side at the nodes, see [`at_nodes`], in units of the window.
     pub(super) fn of(
-        terms_at: &[Vec<Mat<f64>>],
+        terms_at: &[Mat<f64>],
         range: SpeedRange,
         diameters: Vec<Option<usize>>,
         window: f64,
         full: &GyroscopicSystem,
     ) -> Self {
         let size = diameters.len();
-        let terms = terms_at.first().map_or(0, Vec::len);
-        let values = Mat::from_fn(terms * size * size, NODES, |row, node| {
-            let (power, entry) = (row / (size * size), row % (size * size));
-            terms_at[node][power][(entry % size, entry / size)]
+        let columns = terms_at.first().map_or(0, Mat::ncols);
+        let values = Mat::from_fn(size * columns, NODES, |row, node| {
+            terms_at[node][(row % size, row / size)]
         });
         let weights = Mat::from_fn(NODES, NODES, |node, degree| {
             let share = if degree == 0 { 1.0 } else { 2.0 } / NODES as f64;
@@ -83,7 +82,7 @@ impl WaveModel {
             window,
             rigid: full.free_rigid.len(),
             is_conservative: full.is_conservative(),
-            terms,
+            terms: columns.checked_div(size).unwrap_or(0),
             coefficients: values * weights,
         }
     }

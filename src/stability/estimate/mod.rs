@@ -3,7 +3,7 @@
 mod band_error;
 mod damped;
 
-use faer::{Col, Mat, c64};
+use faer::{Col, c64};
 use rayon::prelude::*;
 
 pub use self::band_error::BandError;
@@ -64,14 +64,11 @@ impl Estimates {
             .map(|share| range.from_rad_per_s + share * range.width())
             .into_iter()
             .filter_map(|speed| smallest(samples, |sample| (sample.speed_rad_per_s - speed).abs()));
-        let (mut drawn, mut backward_error) = (0.0, 0.0);
+        let (mut drawn, mut backward_error) = (0.0_f64, 0.0_f64);
         for sample in looks {
             let speed = sample.speed_rad_per_s;
             let modes = described(model, speed, sample.modes.iter());
-            backward_error = modes
-                .iter()
-                .map(|m| m.backward_error)
-                .fold(backward_error, f64::max);
+            backward_error = largest_backward_error(&modes).max(backward_error);
             let errors = larger.frequency_errors(&model.components, speed, &modes);
             drawn = errors
                 .into_iter()
@@ -100,8 +97,7 @@ impl Estimates {
                 let modes = at_peak.map_or_else(Vec::new, |sample| modes_of(model, band, sample));
                 let changes = estimates.band(model, band, &modes)?;
                 step.advance();
-                let backward = modes.iter().map(|m| m.backward_error).fold(0.0, f64::max);
-                Ok((changes.of(band, least), backward))
+                Ok((changes.of(band, least), largest_backward_error(&modes)))
             })
             .collect();
         for (error, backward) in bands? {
@@ -142,15 +138,15 @@ impl Estimates {
         }
     }
 
-    /// Projects a component on some vectors, without and with the softening by the larger basis at the peak
-    /// of a band. Returns an orthonormal basis of the vectors, and both projections.
+    /// Projections of a component on some vectors, without and with the softening by the larger basis at the peak
+    /// of a band.
     fn projected(
         &self,
         model: &SpectralModel,
         band: &Instability,
         component: usize,
         vectors: &[Col<f64>],
-    ) -> (Mat<f64>, [GyroscopicSystem; 2]) {
+    ) -> [GyroscopicSystem; 2] {
         let full = &model.components[component].full;
         let basis = orthonormal(full.order(), vectors, INDEPENDENT);
         let found = full.project(basis.as_ref());
@@ -158,7 +154,7 @@ impl Estimates {
         larger.stiffness -= self
             .larger
             .softening(component, band.peak_rad_per_s, &basis);
-        (basis, [found, larger])
+        [found, larger]
     }
 
     /// Estimates flutter of an undamped blade on the two waves that coalesce: onset and largest growth.
@@ -168,7 +164,7 @@ impl Estimates {
         band: &Instability,
         modes: &[DescribedMode],
     ) -> Result<BandError, SpectrumError> {
-        let (_, systems) = self.projected_on(model, band, modes);
+        let systems = self.projected_on(model, band, modes);
         let wave = c64::new(0.0, band.frequency_rad_per_s);
         let [before, after] = systems.each_ref().map(|system| {
             let found = DoubleEigenvalue::next_to(system, band.from_rad_per_s, wave);
@@ -190,7 +186,7 @@ impl Estimates {
         band: &Instability,
         modes: &[DescribedMode],
     ) -> Result<BandError, SpectrumError> {
-        let (_, systems) = self.projected_on(model, band, modes);
+        let systems = self.projected_on(model, band, modes);
         grown(&systems, band, modes)
     }
 
@@ -200,7 +196,7 @@ impl Estimates {
         model: &SpectralModel,
         band: &Instability,
         modes: &[DescribedMode],
-    ) -> (Mat<f64>, [GyroscopicSystem; 2]) {
+    ) -> [GyroscopicSystem; 2] {
         let component = modes[0].mode.component;
         let halves = modes.iter().flat_map(|m| {
             let (re, im) = split(&model.components[component].coordinates(&m.shape));
@@ -224,7 +220,7 @@ impl Estimates {
         });
         let (re, im) = split(&model.components[component].coordinates(&growing.shape));
         let shapes: Vec<Col<f64>> = ends.map(|c| c.shape.clone()).chain([re, im]).collect();
-        let (_, [found, larger]) = self.projected(model, band, component, &shapes);
+        let [found, larger] = self.projected(model, band, component, &shapes);
         let [before, after] = [Lean::new(&found, band)?, Lean::new(&larger, band)?];
         let [Some(before), Some(after)] = [before, after] else {
             return Ok(BandError::default());
@@ -315,6 +311,11 @@ fn modes_of(model: &SpectralModel, band: &Instability, sample: &SpeedSample) -> 
     others.sort_by(|x, y| away(x).total_cmp(&away(y)));
     let near = [growing].into_iter().chain(others).take(kept);
     described(model, sample.speed_rad_per_s, near)
+}
+
+fn largest_backward_error(modes: &[DescribedMode]) -> f64 {
+    let errors = modes.iter().map(|m| m.backward_error);
+    errors.fold(0.0, f64::max)
 }
 
 /// Modes of one speed with their shapes.

@@ -181,7 +181,7 @@ impl Quadruple {
         let mut samples: Vec<Sample> = known.iter().map(sample).chain(ends).collect();
         samples.retain(|sample| part.range.contains(sample.at));
         samples.sort_by(|x, y| x.at.total_cmp(&y.at));
-        let found = maximize(samples, |speed| {
+        let found = maximize(samples, |_, speed| {
             let Some(mode) = continued(evaluator, &known, speed)? else {
                 return Ok(None);
             };
