@@ -302,9 +302,7 @@ fn critical_speeds_bands_and_operation_have_their_numbers() {
 #[ignore = "needs chromium and chromium-driver; run by .ci/run"]
 fn a_long_chart_reports_its_progress_and_can_be_stopped() {
     run(async {
-        let scene = concat!(env!("CARGO_MANIFEST_DIR"), "/scenes/gallery/six-pads.json");
-        let page = Page::open(&[scene, "--accuracy", "draft"]).await;
-        page.settle().await;
+        let page = Page::drafted("gallery/six-pads").await;
         let is_hidden = "document.querySelector('#stop').hidden";
         page.script("sawflutter.state.set('accuracy', 'reference')")
             .await;
@@ -418,27 +416,18 @@ fn several_saws_are_pinned_listed_and_taken_out() {
             .click()
             .await
             .unwrap();
-        assert_eq!(
-            page.value(rows).await,
-            json!([
-                "Guided spline arbor saw",
-                "thickness 3.6 mm",
-                "as it is now"
-            ])
-        );
+        let kept = json!([
+            "Guided spline arbor saw",
+            "thickness 3.6 mm",
+            "as it is now"
+        ]);
+        assert_eq!(page.value(rows).await, kept);
         // The pinned saws survive a reload.
         page.script("delete window.sawflutter").await;
         page.driver.refresh().await.unwrap();
         page.wait("window.sawflutter?.computed.length > 0").await;
         page.settle().await;
-        assert_eq!(
-            page.value(rows).await,
-            json!([
-                "Guided spline arbor saw",
-                "thickness 3.6 mm",
-                "as it is now"
-            ])
-        );
+        assert_eq!(page.value(rows).await, kept);
         page.close().await;
     });
 }

@@ -299,9 +299,7 @@ fn the_focus_stays_at_the_field_in_use() {
 #[ignore = "needs chromium and chromium-driver; run by .ci/run"]
 fn a_pad_and_its_fields_are_marked_together() {
     run(async {
-        let scene = concat!(env!("CARGO_MANIFEST_DIR"), "/scenes/two-pads.json");
-        let page = Page::open(&[scene, "--accuracy", "draft"]).await;
-        page.settle().await;
+        let page = Page::drafted("two-pads").await;
         let marked = "[...document.querySelectorAll('.selected')].map((marked) => [marked.dataset.path, marked.open ?? marked.querySelector('.number').textContent])";
         drag(&page, "[data-path='guides[1]'] .body", 3, (2, 0)).await;
         let_go(&page).await;

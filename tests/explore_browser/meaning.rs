@@ -86,9 +86,7 @@ fn terms_are_explained_by_the_glossary() {
 #[ignore = "needs chromium and chromium-driver; run by .ci/run"]
 fn words_in_a_narrow_chart_and_on_a_disabled_button_can_be_read() {
     run(async {
-        let scene = concat!(env!("CARGO_MANIFEST_DIR"), "/scenes/collar-400mm.json");
-        let page = Page::open(&[scene, "--accuracy", "draft"]).await;
-        page.settle().await;
+        let page = Page::drafted("collar-400mm").await;
         page.script(
             "window.lines = []; const own = CanvasRenderingContext2D.prototype.fillText; \
             CanvasRenderingContext2D.prototype.fillText = function (text, x, ...rest) { \

@@ -96,9 +96,7 @@ fn a_cut_is_the_one_that_the_command_line_finds() {
 #[ignore = "needs chromium and chromium-driver; run by .ci/run"]
 fn a_cheap_answer_starts_by_itself() {
     run(async {
-        let scene = concat!(env!("CARGO_MANIFEST_DIR"), "/scenes/collar-400mm.json");
-        let page = Page::open(&[scene, "--accuracy", "draft"]).await;
-        page.settle().await;
+        let page = Page::drafted("collar-400mm").await;
         page.open_tab_of("response").await;
         let told = "document.querySelector('#panel-response pre')?.textContent ?? ''";
         page.wait(&format!(

@@ -7,16 +7,8 @@ use crate::analyses::scene_number::in_words;
 use crate::page::figure::axis::{Spread, extremes};
 use crate::page::figure::chart_data::{AxisData, ChartData, PanelData};
 use crate::page::figure::items::{Area, Heat, Item, Line, Points, Shape};
-use crate::page::figure::palette::Hue;
+use crate::page::figure::palette::{Hue, LOW_TO_HIGH};
 
-/// Colours from low to high; lightness rises evenly, so that grey prints are legible too.
-const LOW_TO_HIGH: [[u8; 3]; 5] = [
-    [52, 24, 66],
-    [58, 82, 139],
-    [33, 145, 140],
-    [122, 209, 81],
-    [240, 236, 120],
-];
 /// Heights of the panel for two numbers and for one, relative to one of usual height.
 const SHARES: [f64; 2] = [1.45, 1.0];
 const BEST_SIZE: f64 = 18.0;

@@ -32,7 +32,7 @@ pub use chart_data::{AxisData, ChartData, PanelData};
 pub(crate) use drawing::Drawing;
 pub use drawing::Figure;
 pub use items::{Area, Band, Bars, Heat, Item, Label, Line, Points, Role, Shape, Upright};
-pub use palette::Hue;
+pub use palette::{Hue, LOW_TO_HIGH};
 #[doc(hidden)]
 pub use palette::{PALETTE, Palette};
 pub use style::{CURVE, STRONG_CURVE};

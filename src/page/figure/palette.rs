@@ -4,6 +4,15 @@ use serde::Serialize;
 
 use super::style::{self, Colour};
 
+/// Colours of a heat map from low to high; lightness rises evenly, so that grey prints are legible too.
+pub const LOW_TO_HIGH: [[u8; 3]; 5] = [
+    [52, 24, 66],
+    [58, 82, 139],
+    [33, 145, 140],
+    [122, 209, 81],
+    [240, 236, 120],
+];
+
 /// Defines the colours of the figures from their names in [`style`].
 macro_rules! colours {
     ($($hue:ident, $name:ident, $colour:ident;)*) => {

@@ -97,6 +97,14 @@ impl Page {
         page
     }
 
+    /// Opens a saw of the folder of scenes at draft accuracy, and waits for its chart.
+    pub async fn drafted(name: &str) -> Self {
+        let scene = format!("{}/scenes/{name}.json", env!("CARGO_MANIFEST_DIR"));
+        let page = Self::open(&[&scene, "--accuracy", "draft"]).await;
+        page.settle().await;
+        page
+    }
+
     /// Opens the page as at a first visit.
     pub async fn open_first(arguments: &[&str]) -> Self {
         Self::at(explore(arguments)).await

@@ -14,7 +14,7 @@ export function imageOf(pad, kind) {
 }
 
 // Returns the index of the pad that is the image of the one at `index`, or −1.
-export function partnerOf(guides, index, kind) {
+function partnerOf(guides, index, kind) {
   const image = imageOf(guides[index], kind);
   return image === null ? -1 : guides.findIndex((pad, i) => i !== index
     && Math.abs(pad.radius_m - image.radius_m) < NEAR_M && Math.abs(turned(pad.angle_deg - image.angle_deg)) < NEAR_DEG);
