@@ -34,6 +34,7 @@ mod loci;
 mod material_damping_tests;
 mod maximum;
 mod mode_counts;
+mod nearest_pairs;
 mod onsets;
 mod options;
 mod partition;

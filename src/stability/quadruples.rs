@@ -2,9 +2,9 @@
 
 use faer::c64;
 
+use super::nearest_pairs::nearest_pairs;
 use super::partition::{Plane, Sample};
 use super::pieces::{Grouped, Piece};
-use crate::modes::smallest;
 
 /// Begin or end of an interval.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -203,7 +203,7 @@ fn taken<'a>(open: &mut Vec<Open<'a>>, place: usize) -> Option<Stretch<'a>> {
     Some(open.swap_remove(known).0)
 }
 
-/// Continues each quadruple over an unsettled piece by the nearest one at the other end; quadruples without a
+/// Continues quadruples over an unsettled piece by those at the other end, nearest pairs first; quadruples without a
 /// partner end or begin in the middle.
 fn across_unsettled<'a>(
     piece: &'a Piece,
@@ -213,13 +213,15 @@ fn across_unsettled<'a>(
     let [from, to] = &piece.ends;
     let [a, b] = piece.ends.each_ref().map(|end| end.speed_rad_per_s);
     let middle = 0.5 * (a + b);
-    let mut left: Vec<usize> = quadruples_of(to).collect();
+    let found: Vec<usize> = quadruples_of(to).collect();
+    let partners = nearest_pairs([open.len(), found.len()], |i, k| {
+        let (last, next) = (from.eigenvalues[open[i].1].0, to.eigenvalues[found[k]].0);
+        Some((next - last).norm())
+    });
     let mut next = Vec::new();
-    for (mut stretch, place) in open {
-        let last = from.eigenvalues[place].0;
-        let away = |&other: &usize| (to.eigenvalues[left[other]].0 - last).norm();
-        if let Some(nearest) = smallest(0..left.len(), away) {
-            let place = left.swap_remove(nearest);
+    for ((mut stretch, _), partner) in open.into_iter().zip(&partners) {
+        if let Some(k) = partner {
+            let place = found[*k];
             stretch
                 .points
                 .push((to.speed_rad_per_s, to.eigenvalues[place].0));
@@ -229,9 +231,43 @@ fn across_unsettled<'a>(
             ended.push(stretch);
         }
     }
-    next.extend(
-        left.into_iter()
-            .map(|place| (begun(coalescence(middle, a), to, place), place)),
-    );
+    let is_new = |k: &usize| !partners.contains(&Some(*k));
+    let new = (0..found.len()).filter(is_new).map(|k| found[k]);
+    next.extend(new.map(|place| (begun(coalescence(middle, a), to, place), place)));
     (next, ended)
+}
+
+#[cfg(test)]
+mod tests {
+    use std::sync::Arc;
+
+    use super::*;
+
+    /// Three quadruples at one end of a piece and two at the other: the first one ends, and does not take the place of another.
+    #[test]
+    fn a_quadruple_that_ends_in_an_unsettled_piece_leaves_the_others_their_places() {
+        let lambdas = [(0.01, 49.0), (3.25, 70.0), (37.0, 208.0)];
+        let sample = |speed: f64, lambdas: &[(f64, f64)]| {
+            let squares = lambdas.iter().flat_map(|(re, im)| {
+                let square = c64::new(*re, *im) * c64::new(*re, *im);
+                [square, square.conj()].map(|z| ((z, c64::ZERO), 0))
+            });
+            Arc::new(Sample::of_squares(speed, squares.collect()))
+        };
+        let piece = Piece {
+            ends: [sample(1.0, &lambdas), sample(1.1, &lambdas[1..])],
+            groups: Vec::new(),
+        };
+        let found = stretches(std::slice::from_ref(&piece));
+        assert_eq!(found.len(), 3);
+        for stretch in found {
+            let frequencies: Vec<f64> = stretch.points.iter().map(|(_, z)| z.sqrt().im).collect();
+            if let Bound::Coalescence { .. } = stretch.end {
+                assert!((frequencies[0] - 49.0).abs() < 1e-9 && frequencies.len() == 1);
+            } else {
+                assert_eq!(frequencies.len(), 2);
+                assert!((frequencies[0] - frequencies[1]).abs() < 1e-9);
+            }
+        }
+    }
 }

@@ -10,6 +10,7 @@ use super::spectrum::finite;
 use crate::modes::smallest;
 use crate::stability::band::CurvePoint;
 use crate::stability::group::Sloped;
+use crate::stability::nearest_pairs::nearest_pairs;
 use crate::stability::pieces::{Grouped, Piece};
 use crate::stability::verdict::growth_between;
 
@@ -222,32 +223,21 @@ fn matched(tips: &[Tip], found: &[Sloped], width: f64) -> Option<Vec<usize>> {
 /// Continues curves by the nearest eigenvalues, real ones by real ones; other eigenvalues begin new curves.
 /// Returns these curves, and those without a continuation.
 fn linked(tips: Vec<Tip>, found: Vec<Sloped>, speed_rad_per_s: f64) -> (Vec<Tip>, Vec<Tip>) {
-    let mut pairs: Vec<(f64, usize, usize)> = Vec::new();
-    for (i, ((z, _), _)) in tips.iter().enumerate() {
-        for (k, (other, _)) in found.iter().enumerate() {
-            if (z.im == 0.0) == (other.im == 0.0) {
-                pairs.push(((z - other).norm(), i, k));
-            }
-        }
-    }
-    pairs.sort_by(|x, y| x.0.total_cmp(&y.0));
-    let mut of_tip: Vec<Option<usize>> = vec![None; tips.len()];
-    let mut is_taken = vec![false; found.len()];
-    for (_, i, k) in pairs {
-        if of_tip[i].is_none() && !is_taken[k] {
-            of_tip[i] = Some(k);
-            is_taken[k] = true;
-        }
-    }
+    let partners = nearest_pairs([tips.len(), found.len()], |i, k| {
+        let ((z, _), _) = tips[i];
+        let (other, _) = found[k];
+        ((z.im == 0.0) == (other.im == 0.0)).then(|| (z - other).norm())
+    });
     let (mut kept, mut lost) = (Vec::new(), Vec::new());
-    for (tip, place) in tips.into_iter().zip(of_tip) {
+    for (tip, place) in tips.into_iter().zip(&partners) {
         match place {
-            Some(k) => kept.push(extended(tip, found[k], speed_rad_per_s)),
+            Some(k) => kept.push(extended(tip, found[*k], speed_rad_per_s)),
             None => lost.push(tip),
         }
     }
-    let new = found.iter().zip(&is_taken).filter(|(_, taken)| !**taken);
-    kept.extend(new.map(|(value, _)| (*value, vec![point(speed_rad_per_s, *value)])));
+    let is_new = |k: &usize| !partners.contains(&Some(*k));
+    let new = (0..found.len()).filter(is_new).map(|k| found[k]);
+    kept.extend(new.map(|value| (value, vec![point(speed_rad_per_s, value)])));
     (kept, lost)
 }
 
