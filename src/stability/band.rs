@@ -73,14 +73,14 @@ impl fmt::Display for Instability {
     }
 }
 
-/// An eigenvalue at one speed of a band.
+/// An eigenvalue at one speed.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct CurvePoint {
     /// Rotation speed Ω.
     pub speed_rad_per_s: f64,
-    /// λ with Im λ ≥ 0, in 1/s.
-    pub lambda: c64,
-    /// Derivative dλ/dΩ, dimensionless.
+    /// The number that a search follows: λ with Im λ ≥ 0 of a damped blade, λ² of an undamped one.
+    pub number: c64,
+    /// Derivative of the number with respect to the speed.
     pub slope: c64,
 }
 

@@ -8,8 +8,10 @@ use rayon::prelude::*;
 use faer::c64;
 
 use super::certificate::Certificate;
-use super::partition::{BESIDES, Sample};
-use super::signature::{Sign, Signature, SignedMode};
+use super::group::Sloped;
+use super::growth_curve::Numbers;
+use super::partition::{BESIDES, Plane, Sample};
+use super::signature::Signature;
 use crate::model::tuning::Tuned;
 use crate::modes::{
     DoubleEigenvalue, Mode, ModeKind, SpectralModel, SpectrumError, krein_index, smallest,
@@ -53,6 +55,32 @@ pub struct SolvedSpeed {
 impl SolvedSpeed {
     fn signature(&self) -> Signature {
         Signature::new(self.speed_rad_per_s, self.modes.iter())
+    }
+}
+
+/// Squares of the growing eigenvalues.
+impl Numbers for SignatureEvaluator<'_> {
+    fn plane(&self) -> Plane {
+        Plane::Squares
+    }
+
+    fn nearest(
+        &self,
+        speed_rad_per_s: f64,
+        expected: c64,
+    ) -> Result<Option<Sloped>, SpectrumError> {
+        let wanted = c64::new(expected.re, expected.im.max(0.0)).sqrt();
+        let square = |(lambda, slope): (c64, c64)| (lambda * lambda, 2.0 * lambda * slope);
+        let found = self.model.next_to(speed_rad_per_s, wanted);
+        let is_same =
+            |(lambda, _): &(c64, c64)| (lambda - wanted).norm() <= SAME_GROWTH * wanted.re;
+        if let Some(found) = found.filter(is_same) {
+            return Ok(Some(square(found)));
+        }
+        let signature = self.at(speed_rad_per_s)?;
+        let growing = signature.quadruples.iter().chain(&signature.real);
+        let nearest = smallest(growing, |mode| (mode.lambda - wanted).norm());
+        Ok(nearest.map(|mode| square((mode.lambda, mode.slope))))
     }
 }
 
@@ -208,69 +236,9 @@ impl<'a> SignatureEvaluator<'a> {
         all
     }
 
-    /// The signature at a sampled speed.
-    fn seen_at(&self, speed_rad_per_s: f64) -> Option<Signature> {
-        let seen = self.seen.lock().ok()?;
-        seen.iter()
-            .find(|solved| solved.speed_rad_per_s == speed_rad_per_s)
-            .map(SolvedSpeed::signature)
-    }
-
-    /// Quadruple at a speed next to an expected eigenvalue.
-    ///
-    /// # Errors
-    /// [`SpectrumError`] when the eigenproblem fails.
-    pub fn quadruple(
-        &self,
-        speed_rad_per_s: f64,
-        expected: c64,
-    ) -> Result<Option<SignedMode>, SpectrumError> {
-        let seen = self.seen_at(speed_rad_per_s);
-        if seen.is_none()
-            && let Some((lambda, slope)) = self.growing_next_to(speed_rad_per_s, expected)
-        {
-            let sign = Sign::Quadruple;
-            return Ok(Some(SignedMode {
-                sign,
-                lambda,
-                slope,
-            }));
-        }
-        let signature = seen.map_or_else(|| self.at(speed_rad_per_s), Ok)?;
-        let away = |mode: &SignedMode| (mode.lambda - expected).norm();
-        Ok(smallest(signature.quadruples, away))
-    }
-
     /// Frequency up to which signatures are complete.
     pub fn height_rad_per_s(&self) -> f64 {
         self.model.reflected_to_rad_per_s
-    }
-
-    /// A growing eigenvalue next to an expected one, and dλ/dΩ, by Newton's method; a real one stays real. `None` if it does not lead to
-    /// this eigenvalue.
-    fn growing_next_to(&self, speed_rad_per_s: f64, expected: c64) -> Option<(c64, c64)> {
-        let found = self.model.next_to(speed_rad_per_s, expected);
-        found.filter(|(lambda, _)| (lambda - expected).norm() <= SAME_GROWTH * expected.re)
-    }
-
-    /// σ and dσ/dΩ of a divergent mode at a speed, next to an expected growth rate. `None` if no mode diverges.
-    ///
-    /// # Errors
-    /// [`SpectrumError`] when the eigenproblem fails.
-    pub fn divergent(
-        &self,
-        speed_rad_per_s: f64,
-        expected_per_s: f64,
-    ) -> Result<Option<[f64; 2]>, SpectrumError> {
-        let found = self.growing_next_to(speed_rad_per_s, c64::new(expected_per_s, 0.0));
-        let parts = |(lambda, slope): (c64, c64)| [lambda.re, slope.re];
-        Ok(match found {
-            Some(found) => Some(parts(found)),
-            None => {
-                let fastest = self.at(speed_rad_per_s)?.divergence();
-                fastest.map(|mode| parts((mode.lambda, mode.slope)))
-            }
-        })
     }
 
     /// The coalescence of two modes of the guided blade next to an expected one.

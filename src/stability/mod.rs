@@ -24,6 +24,8 @@ mod expected_work;
 mod flutter;
 mod group;
 mod growing_modes;
+mod growing_stretch;
+mod growth_curve;
 mod heat;
 mod hidden_growth;
 mod interpolation;
@@ -32,7 +34,6 @@ mod listed_pair;
 mod loci;
 #[cfg(test)]
 mod material_damping_tests;
-mod maximum;
 mod mode_counts;
 mod nearest_pairs;
 mod onsets;

@@ -33,6 +33,15 @@ impl Plane {
         }
     }
 
+    /// Derivative of the growth rate with respect to the speed.
+    pub fn growth_slope(self, (number, slope): Sloped) -> f64 {
+        match self {
+            Plane::Squares if number != c64::ZERO => (slope / (2.0 * number.sqrt())).re,
+            // At λ² = 0 only its sign is finite.
+            Plane::Squares | Plane::Eigenvalues => slope.re,
+        }
+    }
+
     /// Size of the number of an eigenvalue of a given size.
     pub fn sized(self, size_rad_per_s: f64) -> f64 {
         match self {

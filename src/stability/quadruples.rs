@@ -2,6 +2,7 @@
 
 use faer::c64;
 
+use super::band::CurvePoint;
 use super::nearest_pairs::nearest_pairs;
 use super::partition::{Plane, Sample};
 use super::pieces::{Grouped, Piece};
@@ -27,8 +28,8 @@ pub enum Bound {
 pub struct Stretch<'a> {
     pub begin: Bound,
     pub end: Bound,
-    /// Speeds of the search within the interval, with the square at each.
-    pub points: Vec<(f64, c64)>,
+    /// The square at the speeds of the search within the interval.
+    pub points: Vec<CurvePoint>,
     parts: Vec<Part<'a>>,
 }
 
@@ -119,6 +120,15 @@ fn quadruples_of(sample: &Sample) -> impl Iterator<Item = usize> {
     all.filter(|(_, (z, _))| z.im > 0.0).map(|(place, _)| place)
 }
 
+fn point(sample: &Sample, place: usize) -> CurvePoint {
+    let (number, slope) = sample.eigenvalues[place];
+    CurvePoint {
+        speed_rad_per_s: sample.speed_rad_per_s,
+        number,
+        slope,
+    }
+}
+
 fn coalescence(expected_rad_per_s: f64, outside_rad_per_s: f64) -> Bound {
     Bound::Coalescence {
         expected_rad_per_s,
@@ -130,7 +140,7 @@ fn begun<'a>(begin: Bound, sample: &Sample, place: usize) -> Stretch<'a> {
     Stretch {
         begin,
         end: begin,
-        points: vec![(sample.speed_rad_per_s, sample.eigenvalues[place].0)],
+        points: vec![point(sample, place)],
         parts: Vec::new(),
     }
 }
@@ -175,7 +185,7 @@ fn across<'a>(
         });
         let last = (last_share == 1.0).then(|| lasts.next()).flatten();
         if let Some(place) = last {
-            stretch.points.push((b, piece.ends[1].eigenvalues[place].0));
+            stretch.points.push(point(&piece.ends[1], place));
             next.push((stretch, place));
         } else {
             stretch.end = coalescence(to_rad_per_s, b);
@@ -222,9 +232,7 @@ fn across_unsettled<'a>(
     for ((mut stretch, _), partner) in open.into_iter().zip(&partners) {
         if let Some(k) = partner {
             let place = found[*k];
-            stretch
-                .points
-                .push((to.speed_rad_per_s, to.eigenvalues[place].0));
+            stretch.points.push(point(to, place));
             next.push((stretch, place));
         } else {
             stretch.end = coalescence(middle, b);
@@ -261,7 +269,7 @@ mod tests {
         let found = stretches(std::slice::from_ref(&piece));
         assert_eq!(found.len(), 3);
         for stretch in found {
-            let frequencies: Vec<f64> = stretch.points.iter().map(|(_, z)| z.sqrt().im).collect();
+            let frequencies: Vec<f64> = stretch.points.iter().map(|p| p.number.sqrt().im).collect();
             if let Bound::Coalescence { .. } = stretch.end {
                 assert!((frequencies[0] - 49.0).abs() < 1e-9 && frequencies.len() == 1);
             } else {

@@ -328,7 +328,7 @@ impl Merging {
     /// one.
     fn damped(analysis: &Analysis, band: &Instability) -> Result<Option<Self>, SpectrumError> {
         const ONSET: f64 = 1e-6;
-        let Some(onset) = band.curve.first().map(|point| point.lambda) else {
+        let Some(onset) = band.curve.first().map(|point| point.number) else {
             return Ok(None);
         };
         if onset.re.abs() > ONSET * band.peak_growth_per_s {

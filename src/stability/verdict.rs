@@ -165,7 +165,7 @@ impl Instability {
         if self.kind == InstabilityKind::Divergence || self.curve.is_empty() {
             return vec![self.range()];
         }
-        let strong = |p: &CurvePoint| p.lambda.re >= threshold_per_s;
+        let strong = |p: &CurvePoint| p.number.re >= threshold_per_s;
         let mut stretches = Vec::new();
         let mut begun = self
             .curve
@@ -208,7 +208,7 @@ impl Instability {
 /// Re λ at a share of the way between two points of a curve.
 pub(super) fn growth_between(pair: &[CurvePoint], share: f64) -> f64 {
     let width = pair[1].speed_rad_per_s - pair[0].speed_rad_per_s;
-    let [before, after] = [pair[0], pair[1]].map(|p| (p.lambda.re, p.slope.re * width));
+    let [before, after] = [pair[0], pair[1]].map(|p| (p.number.re, p.slope.re * width));
     let straight = before.0 + share * (after.0 - before.0);
     // Slopes that are large against the values occur next to a coalescence, where the points are so close
     // that a straight line is accurate.
@@ -254,7 +254,7 @@ mod tests {
     fn damped_hump() -> Instability {
         let point = |speed: f64| CurvePoint {
             speed_rad_per_s: speed,
-            lambda: c64::new((speed - 100.0) * (180.0 - speed) / 1600.0, 10.0),
+            number: c64::new((speed - 100.0) * (180.0 - speed) / 1600.0, 10.0),
             slope: c64::new((280.0 - 2.0 * speed) / 1600.0, 0.0),
         };
         let speeds = [100.0, 110.0, 140.0, 171.0, 180.0];

@@ -268,7 +268,7 @@ fn a_damped_pad_flutters_where_modes_meet_and_not_where_damping_feeds_a_wave() {
             rpm(band.from_rad_per_s),
             rpm(band.to_rad_per_s)
         );
-        let real = band.curve.iter().filter(|p| p.lambda.im == 0.0).count();
+        let real = band.curve.iter().filter(|p| p.number.im == 0.0).count();
         let is_divergence = band.kind == InstabilityKind::Divergence;
         let expected = if is_divergence { band.curve.len() } else { 0 };
         // A band ends where its pair becomes real or complex.

@@ -40,7 +40,7 @@ fn of_curve(curve: &[CurvePoint]) -> f64 {
     let pairs = curve.windows(2);
     let parts = pairs.map(|pair| {
         let width = pair[1].speed_rad_per_s - pair[0].speed_rad_per_s;
-        let ends = pair[0].lambda.re + pair[1].lambda.re;
+        let ends = pair[0].number.re + pair[1].number.re;
         let bend = pair[0].slope.re - pair[1].slope.re;
         width * (0.5 * ends + width * bend / 12.0)
     });

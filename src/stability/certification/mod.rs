@@ -1,10 +1,12 @@
 //! Search for the bands of an undamped blade, with their checks.
 
+use rayon::prelude::*;
+
 use super::band::{Instability, InstabilityKind};
 use super::certificate::{Certificate, ContradictedBands, mismatches};
 use super::divergence::{close_pairs, divergence};
 use super::evaluator::{SignatureEvaluator, SolvedSpeed};
-use super::flutter::{Quadruple, flutter, quadruples};
+use super::flutter::{flutter, real_ends};
 use super::mode_counts::{MiscountedModes, ModeCounts};
 use super::partition::Plane;
 use super::pieces::{Piece, Search};
@@ -111,11 +113,14 @@ fn searched(
     };
     let pieces = searched_pieces(&evaluator, speeds)?;
     let signatures = evaluator.signatures();
-    let quadruples = quadruples(&evaluator, &pieces)?;
-    let real: Vec<f64> = quadruples.iter().flat_map(Quadruple::real_ends).collect();
-    let mut found = divergence(model, &evaluator, &signatures, &real, range)?;
+    let mut stretches = flutter(&evaluator, &pieces)?;
+    let real = real_ends(&stretches);
+    stretches.extend(divergence(model, &evaluator, &signatures, &real)?);
+    let mut found: Vec<Found> = stretches
+        .par_iter()
+        .map(|stretch| stretch.found(&evaluator, range))
+        .collect::<Result<_, _>>()?;
     found.extend(close_pairs(model, &evaluator, speeds, range)?);
-    found.extend(flutter(&evaluator, &quadruples, range)?);
     let (mut bands, mut within) = (Vec::new(), Vec::new());
     for Found {
         whole,

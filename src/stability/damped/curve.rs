@@ -100,10 +100,10 @@ fn begun(open: &mut Vec<Tip>, values: Vec<Sloped>, speed_rad_per_s: f64) -> Vec<
     tips.collect()
 }
 
-fn point(speed_rad_per_s: f64, (lambda, slope): Sloped) -> CurvePoint {
+fn point(speed_rad_per_s: f64, (number, slope): Sloped) -> CurvePoint {
     CurvePoint {
         speed_rad_per_s,
-        lambda,
+        number,
         slope: finite(slope),
     }
 }
@@ -172,7 +172,7 @@ impl Follower<'_> {
             .zip(places)
             .map(|((first, _), &place)| [point(a, *first), point(b, found[place])]);
         let growing: Vec<[CurvePoint; 2]> = pairs
-            .filter(|[first, last]| first.lambda.re.max(last.lambda.re) > 0.0)
+            .filter(|[first, last]| first.number.re.max(last.number.re) > 0.0)
             .collect();
         growing.is_empty()
             || [0.5, 0.25, 0.75].into_iter().all(|share| {
@@ -180,7 +180,7 @@ impl Follower<'_> {
                 growing.iter().all(|pair| {
                     let expected = growth_between(pair, share);
                     let off = between.iter().map(|(z, _)| (z.re - expected).abs());
-                    let size = expected.max(pair[0].lambda.re).max(pair[1].lambda.re);
+                    let size = expected.max(pair[0].number.re).max(pair[1].number.re);
                     let allowed = CURVE_TOLERANCE * size + self.noise_per_s;
                     off.fold(f64::INFINITY, f64::min) <= allowed
                 })
@@ -276,7 +276,7 @@ mod tests {
         for curve in curves {
             let grows: Vec<f64> = curve
                 .iter()
-                .filter(|p| p.lambda.re > 0.0)
+                .filter(|p| p.number.re > 0.0)
                 .map(|p| p.speed_rad_per_s)
                 .collect();
             if let [first, .., last] = grows.as_slice() {
@@ -325,7 +325,7 @@ mod tests {
             (first - 3.0).abs() < 1e-3 && (last - 7.0).abs() < 1e-3,
             "{first} {last}"
         );
-        let real = |curve: &&Curve| curve.iter().all(|p| p.lambda.im == 0.0);
+        let real = |curve: &&Curve| curve.iter().all(|p| p.number.im == 0.0);
         assert_eq!(curves.iter().filter(real).count(), 2);
         assert!(asked < 60, "{asked} speeds");
     }
@@ -344,12 +344,12 @@ mod tests {
             ]
         };
         let (curves, _) = followed(&waves);
-        let below = curves.iter().filter(|curve| curve[0].lambda.im < 20.0);
+        let below = curves.iter().filter(|curve| curve[0].number.im < 20.0);
         let whole: Vec<&Curve> = below.collect();
         assert_eq!(whole.len(), 3);
         for curve in whole {
-            let first = curve[0].lambda.re;
-            assert!(curve.iter().all(|p| (p.lambda.re - first).abs() < 1e-6));
+            let first = curve[0].number.re;
+            assert!(curve.iter().all(|p| (p.number.re - first).abs() < 1e-6));
         }
         assert!(growing(&curves).is_empty());
     }

@@ -2,16 +2,13 @@
 
 use faer::c64;
 
-use super::super::band::{CurvePoint, Instability, InstabilityKind};
-use super::super::interpolation::Cubic;
-use super::super::root::{Look, bracketed};
-use super::spectrum::Solver;
+use super::spectrum::Component;
 use crate::model::scene::SpeedRange;
 use crate::model::tuning::Tuned;
 use crate::modes::SpectrumError;
+use crate::stability::band::{CurvePoint, Instability, InstabilityKind};
+use crate::stability::growth_curve::{GrowthCurve, zero};
 
-/// Relative accuracy in speed of onsets, peaks and minima of growth.
-const SPEED_TOLERANCE: f64 = 1e-12;
 /// Two humps of growth are separate bands if growth between them falls below this share of the lower hump. Each
 /// coalescence of two modes gives a hump; growth by damping alone, between them, is slow and even.
 const VALLEY: Tuned = Tuned::new("stability/damped/hump::VALLEY", 0.5);
@@ -21,25 +18,16 @@ const LEAST_BAND: f64 = 1e-9;
 /// Difference of two slopes of one curve, as a share of the sum of their sizes.
 const ALIKE: f64 = 0.25;
 
-/// Interval of a curve with Re λ > 0.
-struct Stretch {
-    curve: Vec<CurvePoint>,
-    /// Speeds of the extrema of growth, at which the eigenvalue was computed; other points were interpolated.
-    extrema: Vec<f64>,
-    /// Whether the range of speeds begins, and whether it ends, inside the interval.
-    cut: [bool; 2],
-}
-
 /// Bands of a curve between the first and the last speed of a search with a relative tolerance.
 pub fn bands(
-    solver: &Solver<'_>,
-    component: usize,
+    component: &Component<'_>,
     curve: &[CurvePoint],
     range: SpeedRange,
     tolerance: f64,
 ) -> Result<Vec<Instability>, SpectrumError> {
-    let grows = |point: &CurvePoint| point.lambda.re >= 0.0 && point.lambda.im <= solver.highest();
-    let curve = computed(solver, component, curve, tolerance)?;
+    let solver = component.solver;
+    let grows = |point: &CurvePoint| point.number.re >= 0.0 && point.number.im <= solver.highest();
+    let curve = computed(component, curve, tolerance)?;
     let mut bands = Vec::new();
     let mut first = 0;
     while let Some(start) = (first..curve.len()).find(|&k| grows(&curve[k])) {
@@ -47,30 +35,26 @@ pub fn bands(
             .find(|&k| !grows(&curve[k]))
             .unwrap_or(curve.len());
         first = end;
-        let mut growth = curve[start..end].iter().map(|point| point.lambda.re);
+        let mut growth = curve[start..end].iter().map(|point| point.number.re);
         if growth.all(|growth| growth <= solver.noise()) {
             continue;
         }
         let mut grown = curve[start..end].to_vec();
         if let Some(outside) = start.checked_sub(1) {
-            grown.insert(0, onset(solver, component, curve[outside], curve[start])?);
+            grown.insert(0, onset(component, curve[outside], curve[start])?);
         }
         if let Some(outside) = curve.get(end) {
-            grown.push(onset(solver, component, *outside, curve[end - 1])?);
+            grown.push(onset(component, *outside, curve[end - 1])?);
         }
         // An onset may be at the neighbour inside itself.
         grown.dedup_by_key(|point| point.speed_rad_per_s);
         let ends = [grown[0], grown[grown.len() - 1]].map(|point| point.speed_rad_per_s);
-        let (curve, extrema) = with_extrema(solver, component, grown)?;
-        let stretch = Stretch {
-            curve,
-            extrema,
-            cut: [
-                ends[0] <= range.from_rad_per_s,
-                ends[1] >= range.to_rad_per_s,
-            ],
-        };
-        bands.extend(parted(stretch, solver.noise()));
+        let cut = [
+            ends[0] <= range.from_rad_per_s,
+            ends[1] >= range.to_rad_per_s,
+        ];
+        let stretch = GrowthCurve::new(component, &grown)?;
+        bands.extend(parted(&stretch, cut, solver.noise()));
     }
     Ok(bands)
 }
@@ -79,28 +63,28 @@ pub fn bands(
 /// the curve if it differs from the interpolated one by no more than the `tolerance` of the search and has a similar slope:
 /// next to a coalescence the slope of the other one is opposite.
 fn computed(
-    solver: &Solver<'_>,
-    component: usize,
+    component: &Component<'_>,
     curve: &[CurvePoint],
     tolerance: f64,
 ) -> Result<Vec<CurvePoint>, SpectrumError> {
-    let growth = curve.iter().map(|point| point.lambda.re);
+    let solver = component.solver;
+    let growth = curve.iter().map(|point| point.number.re);
     let fastest = growth.fold(0.0, f64::max);
     let allowed = tolerance * fastest + solver.noise();
     let may_grow = |k: usize| {
         curve
             .get(k)
-            .is_some_and(|point| point.lambda.re >= -allowed)
+            .is_some_and(|point| point.number.re >= -allowed)
     };
     let of = |k: usize| {
         let point = curve[k];
         if fastest == 0.0 || !(may_grow(k) || may_grow(k + 1) || may_grow(k.wrapping_sub(1))) {
             return Ok(point);
         }
-        let found = solver.next_to(point.speed_rad_per_s, component, point.lambda)?;
-        let size = point.lambda.norm().max(1e-3 * solver.highest());
+        let found = component.next_to(point.speed_rad_per_s, point.number)?;
+        let size = point.number.norm().max(1e-3 * solver.highest());
         let is_same = |(lambda, slope): &(c64, c64)| {
-            let off = lambda - point.lambda;
+            let off = lambda - point.number;
             let steepness = slope.norm() + point.slope.norm();
             off.norm() <= tolerance * size
                 && off.re.abs() <= allowed
@@ -108,8 +92,8 @@ fn computed(
         };
         Ok(found
             .filter(is_same)
-            .map_or(point, |(lambda, slope)| CurvePoint {
-                lambda,
+            .map_or(point, |(number, slope)| CurvePoint {
+                number,
                 slope,
                 ..point
             }))
@@ -119,103 +103,29 @@ fn computed(
 
 /// Speed of Re λ = 0 between a point outside an interval and its neighbour inside.
 fn onset(
-    solver: &Solver<'_>,
-    component: usize,
+    component: &Component<'_>,
     outside: CurvePoint,
     inside: CurvePoint,
 ) -> Result<CurvePoint, SpectrumError> {
     // If the mode still grows at the point outside, the curve leaves the accurate range of frequencies there.
-    if outside.lambda.re >= 0.0 {
+    if outside.number.re >= 0.0 {
         return Ok(outside);
     }
-    root(solver, component, [outside, inside], |p| p.lambda.re)
+    zero(component, [outside, inside], |point| point.number.re)
 }
 
-/// The curve with points added at every extremum of growth, and the speeds of these.
-fn with_extrema(
-    solver: &Solver<'_>,
-    component: usize,
-    curve: Vec<CurvePoint>,
-) -> Result<(Vec<CurvePoint>, Vec<f64>), SpectrumError> {
-    let mut full = Vec::with_capacity(curve.len());
-    let mut extrema = Vec::new();
-    for k in 0..curve.len() {
-        full.push(curve[k]);
-        let Some(&next) = curve.get(k + 1) else {
-            continue;
-        };
-        let width = next.speed_rad_per_s - curve[k].speed_rad_per_s;
-        let turns = (curve[k].slope.re < 0.0) != (next.slope.re < 0.0);
-        if turns && width > SPEED_TOLERANCE * next.speed_rad_per_s {
-            let found = root(solver, component, [curve[k], next], |p| p.slope.re)?;
-            let ends = [curve[k], next].map(|p| p.speed_rad_per_s);
-            if !ends.contains(&found.speed_rad_per_s) {
-                extrema.push(found.speed_rad_per_s);
-                full.push(found);
-            }
-        }
-    }
-    Ok((full, extrema))
-}
-
-/// Point between two points of a curve at which a number is zero.
-fn root(
-    solver: &Solver<'_>,
-    component: usize,
-    ends: [CurvePoint; 2],
-    number: impl Fn(&CurvePoint) -> f64,
-) -> Result<CurvePoint, SpectrumError> {
-    let look = |point: CurvePoint| Look {
-        at: point.speed_rad_per_s,
-        value: number(&point),
-        point,
-    };
-    let found = bracketed(ends.map(look), SPEED_TOLERANCE, |ends, share| {
-        between_points(solver, component, ends, share).map(look)
-    })?;
-    Ok(found.point)
-}
-
-/// Point of a curve at a share of the way between two of its points.
-fn between_points(
-    solver: &Solver<'_>,
-    component: usize,
-    points: [CurvePoint; 2],
-    share: f64,
-) -> Result<CurvePoint, SpectrumError> {
-    let [from, to] = points.map(|p| p.speed_rad_per_s);
-    let speed = from + share * (to - from);
-    let cubic = |part: fn(c64) -> f64| {
-        Cubic {
-            values: points.map(|p| part(p.lambda)),
-            slopes: points.map(|p| part(p.slope) * (to - from)),
-        }
-        .at(share)
-    };
-    let expected = c64::new(cubic(|z| z.re), cubic(|z| z.im));
-    let found = solver.nearest(speed, component, expected)?;
-    Ok(CurvePoint {
-        speed_rad_per_s: speed,
-        lambda: found.map_or(expected, |(lambda, _)| lambda),
-        slope: found.map_or(points[0].slope, |(_, slope)| slope),
-    })
-}
-
-/// Divides an interval into one band for each hump.
-fn parted(stretch: Stretch, noise: f64) -> Vec<Instability> {
-    let last = stretch.curve.len() - 1;
+/// Divides an interval into one band for each hump. `cut` tells whether the range of speeds begins, and whether
+/// it ends, inside the interval.
+fn parted(stretch: &GrowthCurve, cut: [bool; 2], noise: f64) -> Vec<Instability> {
+    let last = stretch.points.len() - 1;
     let mut bounds = vec![0, last];
-    valleys(&stretch.curve, [0, last], &mut bounds);
+    valleys(&stretch.points, [0, last], &mut bounds);
     bounds.sort_unstable();
     let humps = bounds.windows(2).map(|ends| {
-        let cut = [
-            stretch.cut[0] && ends[0] == 0,
-            stretch.cut[1] && ends[1] == last,
-        ];
-        band(&stretch.curve[ends[0]..=ends[1]], &stretch.extrema, cut)
+        let is_cut = (cut[0] && ends[0] == 0) || (cut[1] && ends[1] == last);
+        band(stretch, [ends[0], ends[1]], !is_cut)
     });
     humps
-        .flatten()
         .filter(|band| {
             band.peak_growth_per_s > noise && band.range().width() > LEAST_BAND * band.to_rad_per_s
         })
@@ -224,7 +134,7 @@ fn parted(stretch: Stretch, noise: f64) -> Vec<Instability> {
 
 /// Adds the indices of the lowest points between humps, deepest first.
 fn valleys(curve: &[CurvePoint], [first, last]: [usize; 2], found: &mut Vec<usize>) {
-    let growth = |k: usize| curve[k].lambda.re;
+    let growth = |k: usize| curve[k].number.re;
     // For each point, `before` is the largest growth up to the point and `behind` the largest growth from the
     // point on.
     let mut before = 0.0_f64;
@@ -255,28 +165,21 @@ fn valleys(curve: &[CurvePoint], [first, last]: [usize; 2], found: &mut Vec<usiz
 }
 
 /// Band of one hump.
-fn band(curve: &[CurvePoint], extrema: &[f64], cut: [bool; 2]) -> Option<Instability> {
-    let (first, last) = (curve.first()?, curve.last()?);
-    let growth = |p: &&CurvePoint| p.lambda.re;
-    let is_computed = |p: &&CurvePoint| extrema.contains(&p.speed_rad_per_s);
-    let peak = curve
-        .iter()
-        .filter(is_computed)
-        .chain([first, last])
-        .max_by(|x, y| growth(x).total_cmp(&growth(y)))?;
-    let kind = if peak.lambda.im == 0.0 {
+fn band(stretch: &GrowthCurve, [first, last]: [usize; 2], closed: bool) -> Instability {
+    let peak = stretch.peak([first, last]);
+    let kind = if peak.number.im == 0.0 {
         InstabilityKind::Divergence
     } else {
         InstabilityKind::Flutter
     };
-    Some(Instability {
+    Instability {
         kind,
-        from_rad_per_s: first.speed_rad_per_s,
-        to_rad_per_s: last.speed_rad_per_s,
-        closed: !cut[0] && !cut[1],
+        from_rad_per_s: stretch.points[first].speed_rad_per_s,
+        to_rad_per_s: stretch.points[last].speed_rad_per_s,
+        closed,
         peak_rad_per_s: peak.speed_rad_per_s,
-        peak_growth_per_s: peak.lambda.re,
-        frequency_rad_per_s: peak.lambda.im.abs(),
-        curve: curve.to_vec(),
-    })
+        peak_growth_per_s: peak.number.re,
+        frequency_rad_per_s: peak.number.im.abs(),
+        curve: stretch.points[first..=last].to_vec(),
+    }
 }

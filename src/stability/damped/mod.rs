@@ -29,7 +29,7 @@ use crate::modes::branches;
 use crate::modes::{Mode, SpectralModel, SpectrumError, clear_range};
 use counts::Counts;
 pub(super) use counts::counted_in_window;
-use spectrum::{Solver, Spectrum, noise};
+use spectrum::{Component, Solver, Spectrum, noise};
 
 /// Allowed distance of straight lines from a drawn curve of growth, as a share of its peak, both on a
 /// square-root scale, which shows slow growth beside fast growth.
@@ -125,7 +125,7 @@ pub(super) fn bands(
     let speeds = evenly_spaced(range.ends(), SEARCH_SPEEDS);
     let searched: Vec<(Vec<Piece>, Vec<Instability>)> = (0..solver.components())
         .into_par_iter()
-        .map(|component| searched(&solver, component, &speeds, closeness.tolerance))
+        .map(|index| searched(&solver.component(index), &speeds, closeness.tolerance))
         .collect::<Result<_, _>>()?;
     let mut instabilities = Vec::new();
     let mut spectra: Vec<Spectrum> = Vec::new();
@@ -165,12 +165,12 @@ pub(super) fn bands(
 
 /// Pieces of one component of the saw, and its bands.
 fn searched(
-    solver: &Solver<'_>,
-    component: usize,
+    component: &Component<'_>,
     speeds: &[f64],
     tolerance: f64,
 ) -> Result<(Vec<Piece>, Vec<Instability>), SpectrumError> {
-    let solve = |speed: f64| solver.sample(speed, component);
+    let solver = component.solver;
+    let solve = |speed: f64| component.sample(speed);
     let search = Search {
         plane: Plane::Eigenvalues,
         top_rad_per_s: solver.highest(),
@@ -187,7 +187,7 @@ fn searched(
     let curves = curve::curves(&pieces, solver.highest(), solver.noise());
     let found: Result<Vec<Vec<Instability>>, SpectrumError> = curves
         .par_iter()
-        .map(|curve| hump::bands(solver, component, curve, range, tolerance))
+        .map(|curve| hump::bands(component, curve, range, tolerance))
         .collect();
     Ok((pieces, found?.into_iter().flatten().collect()))
 }
@@ -236,11 +236,11 @@ fn drawn_speeds(band: &Instability, share: f64) -> Vec<f64> {
     let mut points: Vec<(f64, f64)> = Vec::new();
     for pair in band.curve.windows(2) {
         let [from, to] = [0, 1].map(|k| pair[k].speed_rad_per_s);
-        points.push((from, pair[0].lambda.re));
+        points.push((from, pair[0].number.re));
         let inner = (1..PARTS).map(|k| from + (to - from) * f64::from(k) / f64::from(PARTS));
         points.extend(inner.filter_map(|speed| Some((speed, band.growth_at(speed)?))));
     }
-    points.extend(band.curve.last().map(|p| (p.speed_rad_per_s, p.lambda.re)));
+    points.extend(band.curve.last().map(|p| (p.speed_rad_per_s, p.number.re)));
     let is_straight = |from: usize, to: usize| {
         let ([a, rise_from], [b, rise_to]) = (points[from].into(), points[to].into());
         points[from + 1..to].iter().all(|(speed, growth)| {

@@ -7,7 +7,8 @@ use faer::c64;
 use crate::modes::waves::WaveModel;
 use crate::modes::{SpectralModel, SpectrumError, smallest};
 use crate::stability::group::Sloped;
-use crate::stability::partition::{BESIDES, Sample};
+use crate::stability::growth_curve::Numbers;
+use crate::stability::partition::{BESIDES, Plane, Sample};
 use crate::stability::pieces::Piece;
 
 /// Growth below this share of the highest accurate frequency is rounding.
@@ -58,7 +59,7 @@ impl<'a> Solver<'a> {
     pub fn at(&self, speed: f64) -> Result<Spectrum, SpectrumError> {
         let mut values = Vec::new();
         for component in 0..self.components.len() {
-            let sloped = self.eigenvalues(speed, component)?;
+            let sloped = self.component(component).eigenvalues(speed)?;
             values.extend(sloped.into_iter().map(|(lambda, _)| lambda));
         }
         values.retain(|lambda| lambda.im <= self.highest());
@@ -80,65 +81,12 @@ impl<'a> Solver<'a> {
         first.into_iter().chain(others).collect()
     }
 
-    /// Computes the low eigenvalues of a component as a sample for a search; `None` once the allowed number of spectra is used
-    /// up.
-    pub fn sample(&self, speed: f64, component: usize) -> Result<Option<Sample>, SpectrumError> {
-        if self.is_exhausted() {
-            return Ok(None);
+    /// The eigenvalues of one component.
+    pub fn component(&self, index: usize) -> Component<'_> {
+        Component {
+            solver: self,
+            model: self.components[index],
         }
-        let mut values = self.eigenvalues(speed, component)?;
-        values.sort_by(|x, y| x.0.im.total_cmp(&y.0.im));
-        let reals = values.iter().filter(|(lambda, _)| lambda.im == 0.0).count();
-        let followed = values.partition_point(|(lambda, _)| lambda.im <= self.highest());
-        values.truncate(followed + BESIDES);
-        let away = FENCE * self.components[component].reach_per_s();
-        let mut fences = vec![c64::new(0.0, away)];
-        if reals % 2 == 1 {
-            fences.push(c64::new(-away, 0.0));
-        }
-        values.extend(fences.into_iter().map(|fence| (fence, c64::new(0.0, 0.0))));
-        Ok(Some(Sample::new(speed, values.into_iter())))
-    }
-
-    /// Eigenvalue of a component at a speed nearest to an expected one, with its slope.
-    pub fn nearest(
-        &self,
-        speed: f64,
-        component: usize,
-        expected: c64,
-    ) -> Result<Option<Sloped>, SpectrumError> {
-        let distance = |(lambda, _): &Sloped| (lambda - expected).norm();
-        let away = SAME * expected.norm().max(0.1 * self.highest());
-        let found = self.next_to(speed, component, expected)?;
-        if let Some(found) = found.filter(|found| distance(found) <= away) {
-            return Ok(Some(found));
-        }
-        Ok(smallest(self.eigenvalues(speed, component)?, distance))
-    }
-
-    /// Eigenvalue to which an iteration from an expected one leads. A real one stays real.
-    pub fn next_to(
-        &self,
-        speed: f64,
-        component: usize,
-        expected: c64,
-    ) -> Result<Option<Sloped>, SpectrumError> {
-        let counters = &self.model.counters;
-        counters.cancellation.check()?;
-        counters.refined_pairs.fetch_add(1, Ordering::Relaxed);
-        Ok(self.components[component].next_to(speed, expected))
-    }
-
-    /// Eigenvalues of a component with Im λ ≥ 0, without free rigid motions, and their slopes.
-    fn eigenvalues(&self, speed: f64, component: usize) -> Result<Vec<Sloped>, SpectrumError> {
-        let counters = &self.model.counters;
-        counters.cancellation.check()?;
-        counters.local_solves.fetch_add(1, Ordering::Relaxed);
-        self.spent.fetch_add(1, Ordering::Relaxed);
-        let found = self.components[component].eigenvalues(speed)?.into_iter();
-        Ok(found
-            .map(|(lambda, slope)| (lambda, finite(slope)))
-            .collect())
     }
 
     /// Frequency up to which eigenvalues are complete and accurate.
@@ -154,6 +102,70 @@ impl<'a> Solver<'a> {
     /// Whether the allowed number of spectra is used up.
     pub fn is_exhausted(&self) -> bool {
         self.spent.load(Ordering::Relaxed) >= MOST_SPECTRA
+    }
+}
+
+/// Eigenvalues of a component of a saw.
+pub struct Component<'a> {
+    pub solver: &'a Solver<'a>,
+    model: &'a WaveModel,
+}
+
+impl Component<'_> {
+    /// Computes the low eigenvalues of a component as a sample for a search; `None` once the allowed number of spectra is used
+    /// up.
+    pub fn sample(&self, speed: f64) -> Result<Option<Sample>, SpectrumError> {
+        if self.solver.is_exhausted() {
+            return Ok(None);
+        }
+        let mut values = self.eigenvalues(speed)?;
+        values.sort_by(|x, y| x.0.im.total_cmp(&y.0.im));
+        let reals = values.iter().filter(|(lambda, _)| lambda.im == 0.0).count();
+        let followed = values.partition_point(|(lambda, _)| lambda.im <= self.solver.highest());
+        values.truncate(followed + BESIDES);
+        let away = FENCE * self.model.reach_per_s();
+        let mut fences = vec![c64::new(0.0, away)];
+        if reals % 2 == 1 {
+            fences.push(c64::new(-away, 0.0));
+        }
+        values.extend(fences.into_iter().map(|fence| (fence, c64::new(0.0, 0.0))));
+        Ok(Some(Sample::new(speed, values.into_iter())))
+    }
+
+    /// Eigenvalue to which an iteration from an expected one leads. A real one stays real.
+    pub fn next_to(&self, speed: f64, expected: c64) -> Result<Option<Sloped>, SpectrumError> {
+        let counters = &self.solver.model.counters;
+        counters.cancellation.check()?;
+        counters.refined_pairs.fetch_add(1, Ordering::Relaxed);
+        Ok(self.model.next_to(speed, expected))
+    }
+
+    /// Eigenvalues of a component with Im λ ≥ 0, without free rigid motions, and their slopes.
+    fn eigenvalues(&self, speed: f64) -> Result<Vec<Sloped>, SpectrumError> {
+        let counters = &self.solver.model.counters;
+        counters.cancellation.check()?;
+        counters.local_solves.fetch_add(1, Ordering::Relaxed);
+        self.solver.spent.fetch_add(1, Ordering::Relaxed);
+        let found = self.model.eigenvalues(speed)?.into_iter();
+        Ok(found
+            .map(|(lambda, slope)| (lambda, finite(slope)))
+            .collect())
+    }
+}
+
+impl Numbers for Component<'_> {
+    fn plane(&self) -> Plane {
+        Plane::Eigenvalues
+    }
+
+    fn nearest(&self, speed: f64, expected: c64) -> Result<Option<Sloped>, SpectrumError> {
+        let distance = |(lambda, _): &Sloped| (lambda - expected).norm();
+        let away = SAME * expected.norm().max(0.1 * self.solver.highest());
+        let found = self.next_to(speed, expected)?;
+        if let Some(found) = found.filter(|found| distance(found) <= away) {
+            return Ok(Some(found));
+        }
+        Ok(smallest(self.eigenvalues(speed)?, distance))
     }
 }
 
@@ -198,9 +210,14 @@ mod tests {
             let solver = Solver::new(&model);
             for k in 0..12 {
                 let speed = range.to_rad_per_s * (f64::from(k) + 0.3) / 12.0;
-                let all = solver.eigenvalues(speed, 0).unwrap();
+                let all = solver.component(0).eigenvalues(speed).unwrap();
                 odd += all.iter().filter(|(z, _)| z.im == 0.0).count() % 2;
-                let sample = solver.sample(speed, 0).unwrap().unwrap().eigenvalues;
+                let sample = solver
+                    .component(0)
+                    .sample(speed)
+                    .unwrap()
+                    .unwrap()
+                    .eigenvalues;
                 let count = sample.len();
                 for (k, (z, _)) in sample.iter().enumerate() {
                     let mirrored = sample[count - 1 - k].0.im;

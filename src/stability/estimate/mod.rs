@@ -166,13 +166,13 @@ impl Estimates {
     ) -> Result<BandError, SpectrumError> {
         let systems = self.projected_on(model, band, modes);
         let wave = c64::new(0.0, band.frequency_rad_per_s);
-        let [before, after] = systems.each_ref().map(|system| {
-            let found = DoubleEigenvalue::next_to(system, band.from_rad_per_s, wave);
-            found.map(|found| found.speed_rad_per_s)
+        let [found, larger] = &systems;
+        let before = DoubleEigenvalue::next_to(found, band.from_rad_per_s, wave);
+        // Started at the band again, the iteration could lead to another coalescence.
+        let onset = before.and_then(|before| {
+            let after = DoubleEigenvalue::next_to(larger, before.speed_rad_per_s, before.lambda)?;
+            Some((after.speed_rad_per_s - before.speed_rad_per_s) / band.from_rad_per_s)
         });
-        let onset = before
-            .zip(after)
-            .map(|(before, after)| (after - before) / band.from_rad_per_s);
         Ok(BandError {
             speed: onset.and_then(magnitude),
             ..grown(&systems, band, modes)?

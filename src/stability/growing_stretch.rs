@@ -1,0 +1,167 @@
+//! An interval of speed over which an eigenvalue of an undamped blade grows.
+
+use faer::c64;
+
+use super::band::{CurvePoint, Instability, InstabilityKind};
+use super::growth_curve::{GrowthCurve, Numbers, between};
+use super::partition::Plane;
+use super::search_result::Found;
+use crate::model::scene::SpeedRange;
+use crate::modes::{SpectrumError, smallest};
+
+/// Begin or end of an interval.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum End {
+    /// Coalescence of two waves, or of two real λ.
+    Coalescence(CurvePoint),
+    /// Critical speed: λ passes through zero.
+    Critical(f64),
+    /// End of the range inside the interval.
+    Range(f64),
+    /// Estimated end of an eigenvalue that could not be followed to it.
+    Unknown(f64),
+}
+
+impl End {
+    /// Rotation speed Ω.
+    pub fn speed(&self) -> f64 {
+        match self {
+            End::Coalescence(point) => point.speed_rad_per_s,
+            End::Critical(speed) | End::Range(speed) | End::Unknown(speed) => *speed,
+        }
+    }
+
+    /// λ² at the end, if it is known.
+    fn point(&self) -> Option<CurvePoint> {
+        match self {
+            End::Coalescence(point) => Some(*point),
+            End::Critical(speed_rad_per_s) => Some(CurvePoint {
+                speed_rad_per_s: *speed_rad_per_s,
+                number: c64::ZERO,
+                slope: c64::from(f64::NAN),
+            }),
+            End::Range(_) | End::Unknown(_) => None,
+        }
+    }
+}
+
+/// An interval with a growing eigenvalue.
+#[derive(Debug, Clone)]
+pub struct GrowingStretch {
+    /// Divergence for real λ, flutter for others.
+    pub kind: InstabilityKind,
+    /// Begin and end.
+    pub ends: [End; 2],
+    /// λ² at some speeds between them, at least one, ascending.
+    pub points: Vec<CurvePoint>,
+}
+
+/// Distance of a peak at the end of a band from that end, as a share of the width.
+const BESIDE_END: f64 = 1e-3;
+
+impl GrowingStretch {
+    /// The band of the interval, and its part within a range.
+    ///
+    /// # Errors
+    /// The errors of `numbers`.
+    pub fn found(&self, numbers: &impl Numbers, range: SpeedRange) -> Result<Found, SpectrumError> {
+        Found::new(range, |limits| self.band(numbers, limits))
+    }
+
+    /// The band between two speeds.
+    fn band(
+        &self,
+        numbers: &impl Numbers,
+        limits: SpeedRange,
+    ) -> Result<Instability, SpectrumError> {
+        let [begin, end] = self.ends;
+        let range = SpeedRange::new(begin.speed(), end.speed()).within(limits);
+        let curve = GrowthCurve::new(numbers, &self.within(numbers, range)?)?;
+        let mut peak = curve.peak([0, curve.points.len() - 1]);
+        let [from, to] = range.ends();
+        for (edge, other) in [(begin, to), (end, from)] {
+            // Two real λ grow where they coalesce, but have one eigenvector there.
+            if matches!(edge, End::Coalescence(_)) && edge.speed() == peak.speed_rad_per_s {
+                peak.speed_rad_per_s += BESIDE_END * (other - edge.speed());
+            }
+        }
+        let lambda = peak.number.sqrt();
+        let is_open = |end: &End| matches!(end, End::Range(_));
+        Ok(Instability {
+            kind: self.kind,
+            from_rad_per_s: from,
+            to_rad_per_s: to,
+            closed: !self.ends.iter().any(is_open),
+            peak_rad_per_s: peak.speed_rad_per_s,
+            peak_growth_per_s: Plane::Squares.growth_per_s(peak.number),
+            frequency_rad_per_s: lambda.im,
+            curve: Vec::new(),
+        })
+    }
+
+    /// Points within a range, and at its ends, if it cuts the interval.
+    fn within(
+        &self,
+        numbers: &impl Numbers,
+        range: SpeedRange,
+    ) -> Result<Vec<CurvePoint>, SpectrumError> {
+        let [begin, end] = self.ends;
+        let is_inside = |point: &&CurvePoint| {
+            (begin.speed() < point.speed_rad_per_s) && (point.speed_rad_per_s < end.speed())
+        };
+        let inner = self.points.iter().filter(is_inside).copied();
+        let mut known: Vec<CurvePoint> = begin.point().into_iter().collect();
+        known.extend(inner.chain(end.point()));
+        if known.is_empty() {
+            known.push(self.points[0]);
+        }
+        with_chords(&mut known);
+        let ends = range.ends().into_iter().zip(self.ends);
+        let cuts = ends.filter(|(speed, end)| *speed != end.speed());
+        let at = cuts.map(|(speed, _)| continued(numbers, &known, speed));
+        let cut: Vec<CurvePoint> = at.collect::<Result<_, _>>()?;
+        known.retain(|point| range.contains(point.speed_rad_per_s));
+        known.extend(cut);
+        known.sort_by(|x, y| x.speed_rad_per_s.total_cmp(&y.speed_rad_per_s));
+        Ok(known)
+    }
+}
+
+/// Replaces unknown slopes at both ends of a list by those of the chords to the neighbours.
+fn with_chords(points: &mut [CurvePoint]) {
+    let last = points.len() - 1;
+    for (end, neighbour) in [(0, 1), (last, last.saturating_sub(1))] {
+        if points[end].slope.is_finite() {
+            continue;
+        }
+        let other = points.get(neighbour).filter(|_| end != neighbour);
+        points[end].slope = other.map_or(c64::ZERO, |other| {
+            let step = other.speed_rad_per_s - points[end].speed_rad_per_s;
+            (other.number - points[end].number) / step
+        });
+    }
+}
+
+/// The point at another speed, next to that expected from its neighbours.
+fn continued(
+    numbers: &impl Numbers,
+    known: &[CurvePoint],
+    speed_rad_per_s: f64,
+) -> Result<CurvePoint, SpectrumError> {
+    let place = known.partition_point(|point| point.speed_rad_per_s < speed_rad_per_s);
+    if let Some(&[before, after]) = known.get(place.saturating_sub(1)..=place) {
+        let width = after.speed_rad_per_s - before.speed_rad_per_s;
+        let share = (speed_rad_per_s - before.speed_rad_per_s) / width;
+        return between(numbers, [before, after], share);
+    }
+    let away = |point: &&CurvePoint| (point.speed_rad_per_s - speed_rad_per_s).abs();
+    let nearest = *smallest(known, away).unwrap_or(&known[0]);
+    let step = speed_rad_per_s - nearest.speed_rad_per_s;
+    let found = numbers.nearest(speed_rad_per_s, nearest.number + nearest.slope * step)?;
+    let (number, slope) = found.unwrap_or((nearest.number, nearest.slope));
+    Ok(CurvePoint {
+        speed_rad_per_s,
+        number,
+        slope,
+    })
+}

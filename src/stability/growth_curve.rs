@@ -1,0 +1,129 @@
+//! Growth of one eigenvalue over an interval of speed, with its extrema.
+
+use faer::c64;
+
+use super::band::CurvePoint;
+use super::group::Sloped;
+use super::interpolation::Cubic;
+use super::partition::Plane;
+use super::root::{Look, bracketed};
+use crate::modes::SpectrumError;
+
+/// Relative accuracy in speed of onsets, peaks and minima of growth.
+const SPEED_TOLERANCE: f64 = 1e-12;
+
+/// Numbers of a saw at any speed.
+pub trait Numbers {
+    /// Whether the numbers are λ or λ².
+    fn plane(&self) -> Plane;
+
+    /// The number at a speed that is nearest to an expected one, with its slope; `None` if there is none.
+    ///
+    /// # Errors
+    /// [`SpectrumError`] when an eigenproblem fails.
+    fn nearest(&self, speed_rad_per_s: f64, expected: c64)
+    -> Result<Option<Sloped>, SpectrumError>;
+}
+
+/// Points of a curve at ascending speeds, among them every extremum of growth.
+pub struct GrowthCurve {
+    plane: Plane,
+    /// The points.
+    pub points: Vec<CurvePoint>,
+    /// Speeds of the extrema.
+    extrema: Vec<f64>,
+}
+
+impl GrowthCurve {
+    /// The curve through points at ascending speeds, with the points added at which growth is largest or
+    /// smallest.
+    ///
+    /// # Errors
+    /// The errors of `numbers`.
+    pub fn new(numbers: &impl Numbers, known: &[CurvePoint]) -> Result<Self, SpectrumError> {
+        let plane = numbers.plane();
+        let mut curve = GrowthCurve {
+            plane,
+            points: known.iter().take(1).copied().collect(),
+            extrema: Vec::new(),
+        };
+        let slope = |point: &CurvePoint| plane.growth_slope((point.number, point.slope));
+        for pair in known.windows(2) {
+            let ends = [pair[0], pair[1]];
+            let [from, to] = ends.map(|point| point.speed_rad_per_s);
+            let turns = (slope(&pair[0]) < 0.0) != (slope(&pair[1]) < 0.0);
+            if turns && to - from > SPEED_TOLERANCE * to {
+                let found = zero(numbers, ends, slope)?;
+                if ![from, to].contains(&found.speed_rad_per_s) {
+                    curve.extrema.push(found.speed_rad_per_s);
+                    curve.points.push(found);
+                }
+            }
+            curve.points.push(pair[1]);
+        }
+        Ok(curve)
+    }
+
+    /// The point of largest growth from one index to another: an end or an extremum.
+    pub fn peak(&self, [first, last]: [usize; 2]) -> CurvePoint {
+        let growth = |point: &CurvePoint| self.plane.growth_per_s(point.number);
+        let is_extremum = |point: &&CurvePoint| self.extrema.contains(&point.speed_rad_per_s);
+        let inner = self.points[first..=last].iter().filter(is_extremum);
+        let (begin, end) = (&self.points[first], &self.points[last]);
+        *inner.chain([end]).fold(begin, |best, point| {
+            if growth(point) > growth(best) {
+                point
+            } else {
+                best
+            }
+        })
+    }
+}
+
+/// The point between two points of a curve at which a value of it is zero.
+///
+/// # Errors
+/// The errors of `numbers`.
+pub fn zero(
+    numbers: &impl Numbers,
+    ends: [CurvePoint; 2],
+    value: impl Fn(&CurvePoint) -> f64,
+) -> Result<CurvePoint, SpectrumError> {
+    let look = |point: CurvePoint| Look {
+        at: point.speed_rad_per_s,
+        value: value(&point),
+        point,
+    };
+    let found = bracketed(ends.map(look), SPEED_TOLERANCE, |ends, share| {
+        between(numbers, ends, share).map(look)
+    })?;
+    Ok(found.point)
+}
+
+/// The point of a curve at a share of the way between two of its points.
+///
+/// # Errors
+/// The errors of `numbers`.
+pub fn between(
+    numbers: &impl Numbers,
+    points: [CurvePoint; 2],
+    share: f64,
+) -> Result<CurvePoint, SpectrumError> {
+    let [from, to] = points.map(|point| point.speed_rad_per_s);
+    let cubic = |part: fn(c64) -> f64| {
+        Cubic {
+            values: points.map(|point| part(point.number)),
+            slopes: points.map(|point| part(point.slope) * (to - from)),
+        }
+        .at(share)
+    };
+    let expected = c64::new(cubic(|z| z.re), cubic(|z| z.im));
+    let speed_rad_per_s = from + share * (to - from);
+    let found = numbers.nearest(speed_rad_per_s, expected)?;
+    let (number, slope) = found.unwrap_or((expected, points[0].slope));
+    Ok(CurvePoint {
+        speed_rad_per_s,
+        number,
+        slope,
+    })
+}
