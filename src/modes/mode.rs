@@ -50,10 +50,8 @@ pub struct Mode {
     pub lambda: c64,
     /// Kind of the mode.
     pub kind: ModeKind,
-    /// dω/dΩ of an oscillation λ = iω; for a damped one the value without damping; otherwise zero.
-    pub frequency_slope: f64,
-    /// dλ/dΩ of a growing mode of an undamped blade; otherwise zero.
-    pub growth_slope: c64,
+    /// dλ/dΩ, dimensionless; zero where it is unbounded or unknown.
+    pub slope: c64,
     /// Sign of the action, +1 or −1: a reflected wave (ω, q) has −1 and is the same motion as (−ω, q̄) with +1.
     /// A mode without oscillation and a flutter mode have +1, the decaying partner of a flutter mode −1.
     pub action: i8,
@@ -121,8 +119,7 @@ impl Mode {
         Mode {
             lambda,
             kind: ModeKind::Damped,
-            frequency_slope: slope.im,
-            growth_slope: slope,
+            slope,
             action,
             component,
             coordinates,
@@ -152,16 +149,7 @@ impl Mode {
         Some(Mode {
             lambda: c64::new(if is_wave { 0.0 } else { self.lambda.re }, self.lambda.im),
             kind,
-            frequency_slope: if is_wave || kind == Damped && oscillates {
-                self.frequency_slope
-            } else {
-                0.0
-            },
-            growth_slope: if matches!(kind, Flutter | Divergent) {
-                self.growth_slope
-            } else {
-                c64::ZERO
-            },
+            slope: c64::new(if is_wave { 0.0 } else { self.slope.re }, self.slope.im),
             action: match kind {
                 Negative | Decaying => -1,
                 Damped if oscillates => self.action,
@@ -213,57 +201,48 @@ pub fn classify(
     pairs: Vec<Eigenpair>,
 ) -> Vec<Mode> {
     let rigid_noise = rigid_noise(system);
-    let growth_slopes = growth_slopes(system, speed_rad_per_s, &pairs);
     let forms = Forms::of(system, &pairs);
-    pairs
-        .into_iter()
-        .zip(growth_slopes)
-        .zip(forms)
-        .filter_map(|(((lambda, q), growth_slope), forms)| {
-            let [action, frequency_slope] = forms.action(speed_rad_per_s, lambda.im);
-            let sign = if action < 0.0 { -1 } else { 1 };
-            let mode = Mode {
-                frequency_slope,
-                ..Mode::of(lambda, growth_slope, sign, component, q)
-            };
-            if lambda.norm() < rigid_noise {
-                return Some(Mode {
-                    lambda: c64::new(0.0, 0.0),
-                    kind: ModeKind::Rigid,
-                    action: 1,
-                    frequency_slope: 0.0,
-                    ..mode
-                });
-            }
-            mode.classified(speed_rad_per_s, system.is_conservative())
-        })
-        .collect()
+    let modes = pairs.iter().zip(forms).filter_map(|(pair, forms)| {
+        let (lambda, q) = pair;
+        let action = forms.action(speed_rad_per_s, lambda.im);
+        let slope = coalesced_slope(system, speed_rad_per_s, &pairs, pair)
+            .unwrap_or_else(|| forms.slope(speed_rad_per_s, lambda.im));
+        let slope = if slope.is_finite() { slope } else { c64::ZERO };
+        let sign = if action < 0.0 { -1 } else { 1 };
+        let mode = Mode::of(*lambda, slope, sign, component, q.clone());
+        if lambda.norm() < rigid_noise {
+            return Some(Mode {
+                lambda: c64::ZERO,
+                kind: ModeKind::Rigid,
+                action: 1,
+                slope: c64::ZERO,
+                ..mode
+            });
+        }
+        mode.classified(speed_rad_per_s, system.is_conservative())
+    });
+    modes.collect()
 }
 
-/// dλ/dΩ of each pair of an undamped system that grows beyond rounding, zero for the others.
+/// dλ/dΩ of a pair of an undamped system that grows or decays beyond rounding.
 ///
 /// The transpose of L(λ) is L(−λ), so the left vector of λ is the right vector of −λ, the
 /// conjugate of that of the mirror image −λ̄: dλ/dΩ = −yᵀ(2λG + 2Ω(K_σ − N))x / yᵀ(2λ + 2ΩG)x.
-fn growth_slopes(system: &GyroscopicSystem, speed: f64, pairs: &[Eigenpair]) -> Vec<c64> {
-    let slope = |(lambda, x): &Eigenpair| {
-        let noise = GROWTH_NOISE * (lambda.norm() + speed.abs());
-        if !system.is_conservative() || lambda.re <= noise {
-            return c64::new(0.0, 0.0);
-        }
-        let Some((_, mirror)) = smallest(pairs, |pair| (pair.0 + lambda.conj()).norm()) else {
-            return c64::new(0.0, 0.0);
-        };
-        let gyroscopic = mirror.adjoint() * real_times(&system.gyroscopic, x);
-        let spin = mirror.adjoint() * real_times(&system.spin, x);
-        let inertia = mirror.adjoint() * x;
-        let slope = -(lambda * gyroscopic + spin * speed) / (lambda * inertia + gyroscopic * speed);
-        if slope.is_finite() {
-            slope
-        } else {
-            c64::new(0.0, 0.0)
-        }
-    };
-    pairs.iter().map(slope).collect()
+fn coalesced_slope(
+    system: &GyroscopicSystem,
+    speed: f64,
+    pairs: &[Eigenpair],
+    (lambda, x): &Eigenpair,
+) -> Option<c64> {
+    let noise = GROWTH_NOISE * (lambda.norm() + speed.abs());
+    if !system.is_conservative() || lambda.re.abs() <= noise {
+        return None;
+    }
+    let (_, mirror) = smallest(pairs, |pair| (pair.0 + lambda.conj()).norm())?;
+    let gyroscopic = mirror.adjoint() * real_times(&system.gyroscopic, x);
+    let spin = mirror.adjoint() * real_times(&system.spin, x);
+    let inertia = mirror.adjoint() * x;
+    Some(-(lambda * gyroscopic + spin * speed) / (lambda * inertia + gyroscopic * speed))
 }
 
 /// Quadratic forms of q, qᴴq = 1.
@@ -287,14 +266,17 @@ impl Forms {
         (0..pairs.len()).map(form).collect()
     }
 
-    /// Action and slope of a mode λ = iω, ω > 0, qᴴq = 1; for a damped one, the values without damping.
-    ///
-    /// With qᴴGq = iγ the action has the sign of qᴴ(2ω − 2iΩG)q, or of ω + Ωγ. From L(ω, Ω) = −ω² + 2iωΩG + K follows
+    /// Action of a mode λ = iω, ω > 0; for a damped one, the value without damping. With qᴴGq = iγ it has the sign of
+    /// qᴴ(2ω − 2iΩG)q, or of ω + Ωγ.
+    fn action(self, speed: f64, omega: f64) -> f64 {
+        omega + speed * self.gamma
+    }
+
+    /// i dω/dΩ of a mode λ = iω; for a damped one, the value without damping. From L(ω, Ω) = −ω² + 2iωΩG + K follows
     /// dω/dΩ = (Ω qᴴ(K_σ−N)q − ωγ) / (ω + Ωγ).
-    fn action(self, speed: f64, omega: f64) -> [f64; 2] {
-        let form = omega + speed * self.gamma;
-        let slope = (speed * self.spin - omega * self.gamma) / form;
-        [form, if slope.is_finite() { slope } else { 0.0 }]
+    fn slope(self, speed: f64, omega: f64) -> c64 {
+        let slope = (speed * self.spin - omega * self.gamma) / self.action(speed, omega);
+        c64::new(0.0, slope)
     }
 }
 
@@ -308,8 +290,7 @@ mod tests {
         let mode = |re: f64| Mode {
             lambda: c64::new(re, 377.0),
             kind: ModeKind::Damped,
-            frequency_slope: 0.0,
-            growth_slope: c64::new(0.0, 0.0),
+            slope: c64::ZERO,
             action: 1,
             component: 0,
             coordinates: Col::zeros(1),

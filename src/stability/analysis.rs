@@ -58,14 +58,13 @@ fn root_loci(
     chart: &StabilityChart,
     onset_rad_per_s: f64,
     range_rad_per_s: SpeedRange,
-) -> Result<Option<RootLoci>, SpectrumError> {
+) -> Option<RootLoci> {
     let begins = |band: &&Instability| {
         band.kind == InstabilityKind::Flutter && band.from_rad_per_s == onset_rad_per_s
     };
-    match chart.instabilities.iter().find(begins) {
-        Some(band) if model.is_conservative() => RootLoci::new(model, band, range_rad_per_s),
-        _ => Ok(None),
-    }
+    let band = chart.instabilities.iter().find(begins)?;
+    let is_paired = model.is_conservative();
+    is_paired.then(|| RootLoci::new(&chart.campbell, band, range_rad_per_s))?
 }
 
 /// Stability of one saw: critical speeds, bands, estimated errors and certificate.
@@ -205,10 +204,7 @@ impl Analysis {
         let drawn_onset = flutter_speed
             .or(first_merge)
             .filter(|_| detail == Detail::Full);
-        let root_loci = drawn_onset
-            .map(|onset| root_loci(&model, &chart, onset, range))
-            .transpose()?
-            .flatten();
+        let root_loci = drawn_onset.and_then(|onset| root_loci(&model, &chart, onset, range));
         let heat = HeatLimits::new(scene, &model)?;
         let crossings = crossings(&model, &chart, scene.excitation())?;
         let idling = match scene.cut().and_then(|cut| cut.chart) {

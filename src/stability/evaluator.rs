@@ -189,6 +189,7 @@ impl<'a> SignatureEvaluator<'a> {
 
     /// λ² with slope and Krein sign, for the modes up to the height of the search and [`BESIDES`] above.
     fn squares(&self, modes: &[Mode]) -> Vec<((c64, c64), i8)> {
+        use ModeKind::{Divergent, Flutter, Negative, Positive};
         let mut followed: Vec<&Mode> = modes.iter().collect();
         followed.sort_by(|x, y| x.lambda.im.total_cmp(&y.lambda.im));
         let height = self.height_rad_per_s();
@@ -196,13 +197,11 @@ impl<'a> SignatureEvaluator<'a> {
         followed.truncate(below + BESIDES);
         let mut squares = Vec::new();
         for mode in followed {
-            let slope = match mode.kind {
-                ModeKind::Positive | ModeKind::Negative => c64::new(0.0, mode.frequency_slope),
-                ModeKind::Flutter | ModeKind::Divergent => mode.growth_slope,
-                ModeKind::Decaying | ModeKind::Rigid | ModeKind::Damped => continue,
-            };
-            let (square, slope) = (mode.lambda * mode.lambda, 2.0 * mode.lambda * slope);
-            if mode.kind == ModeKind::Flutter {
+            if !matches!(mode.kind, Positive | Negative | Flutter | Divergent) {
+                continue;
+            }
+            let (square, slope) = (mode.lambda * mode.lambda, 2.0 * mode.lambda * mode.slope);
+            if mode.kind == Flutter {
                 squares.push(((square, slope), 0));
                 squares.push(((square.conj(), slope.conj()), 0));
             } else {

@@ -1,10 +1,18 @@
-//! The two eigenvalues of a flutter band, followed through it in the complex plane.
+//! The two eigenvalues of a flutter band over the speed, read off the branches of a chart.
+//!
+//! Next to its edges the mean iω of the two and the square D of half their difference are smooth,
+//!
+//! λ₁,₂ = iω ± √D,  D > 0 within the band,
+//!
+//! so that cubics by values and slopes at the speeds of the chart give both eigenvalues at any speed.
 
 use faer::c64;
 
 use super::band::Instability;
+use super::interpolation::Cubic;
 use crate::model::scene::SpeedRange;
-use crate::modes::{Mode, SpectralModel, SpectrumError, smallest};
+use crate::modes::branches::{Branch, Campbell};
+use crate::modes::{Mode, ModeKind, NamedMode, smallest};
 
 /// Paths of two eigenvalues over speed.
 #[derive(Debug, Clone, PartialEq)]
@@ -20,171 +28,139 @@ pub struct RootLoci {
 const SPEEDS: usize = 20;
 
 impl RootLoci {
-    /// Follows the pair of a band from its peak to one width below and above the band, within a range, or
-    /// until one of the two coalesces with another mode. `None` if the pair is not found.
-    ///
-    /// # Errors
-    /// [`SpectrumError`] when an eigenproblem fails.
-    pub fn new(
-        model: &SpectralModel,
-        band: &Instability,
-        range: SpeedRange,
-    ) -> Result<Option<Self>, SpectrumError> {
+    /// The pair of a band from its peak to one width below and above the band, within a range, or
+    /// until one of the two coalesces with another mode. `None` if the chart has no such pair at the peak.
+    pub fn new(campbell: &Campbell, band: &Instability, range: SpeedRange) -> Option<Self> {
         let width = band.range().width();
         let wide = SpeedRange::new(band.from_rad_per_s - width, band.to_rad_per_s + width);
-        let [from, to] = wide.within(range).ends();
-        let pairs = Pairs(model);
-        let Some(peak) = pairs.at_peak(band) else {
-            return Ok(None);
-        };
-        let outwards = |edge: f64, end: f64| {
-            let inside = denser_at_ends(band.peak_rad_per_s, edge);
-            // At the end of a range that cuts the band, growth is not zero, so the end itself belongs to the
-            // path.
-            let last = (end != band.peak_rad_per_s).then_some(end);
-            inside.chain(denser_at_ends(edge, end)).chain(last)
-        };
-        let mut rows = pairs.followed(peak, band, outwards(band.from_rad_per_s, from))?;
-        rows.reverse();
-        rows.push(peak.row([0, 0]));
-        rows.extend(pairs.followed(peak, band, outwards(band.to_rad_per_s, to))?);
-        let path = |k: usize| rows.iter().map(|row| row.1[k]).collect();
-        Ok(Some(RootLoci {
-            speeds: rows.iter().map(|row| row.0).collect(),
-            paths: [path(0), path(1)],
-        }))
+        let nodes = nodes(campbell, band, wide.within(range))?;
+        let (first, last) = (nodes.first()?, nodes.last()?);
+        let peak = band.peak_rad_per_s;
+        let [from, to] = band.range().ends();
+        let mut speeds: Vec<f64> = [
+            (first.speed, from),
+            (from, peak),
+            (peak, to),
+            (to, last.speed),
+        ]
+        .into_iter()
+        .flat_map(|(from, to)| denser_at_ends(from, to))
+        .chain([first.speed, peak, last.speed])
+        .collect();
+        speeds.sort_by(f64::total_cmp);
+        speeds.dedup();
+        let at = |speed: f64| value(&nodes, speed, band.range().contains(speed));
+        let rows: Vec<[(c64, i8); 2]> = speeds.iter().map(|speed| at(*speed)).collect();
+        Some(RootLoci {
+            paths: [0, 1].map(|k| rows.iter().map(|row| row[k]).collect()),
+            speeds,
+        })
     }
 }
 
-/// A speed, and λ and Krein sign of both modes.
-type Row = (f64, [(c64, i8); 2]);
-
-/// Speeds strictly between two others, denser near both, where paths turn.
+/// Speeds strictly between two others, denser near both, where paths turn; none if the second is not the larger one.
 fn denser_at_ends(from: f64, to: f64) -> impl Iterator<Item = f64> {
-    let count = if from == to { 0 } else { SPEEDS };
+    let count = if from < to { SPEEDS } else { 0 };
     (0..count).map(move |k| {
         let angle = std::f64::consts::PI * (k as f64 + 0.5) / SPEEDS as f64;
         from + 0.5 * (1.0 - angle.cos()) * (to - from)
     })
 }
 
-/// Two eigenvalues at a speed, each with its slope.
+/// A pair at a speed of the chart.
 #[derive(Debug, Clone, Copy)]
-struct Pair {
+struct Node {
     speed: f64,
-    sloped: [(c64, c64); 2],
+    /// ω and its slope.
+    mean: [f64; 2],
+    /// D and its slope.
+    square: [f64; 2],
+    /// Whether the first of two waves has the larger frequency.
+    is_above: bool,
 }
 
-/// Real part of λ, as a share of the distance of the two waves of a pair, that is rounding.
-const ROUNDING: f64 = 1e-3;
-/// Largest error of a predicted eigenvalue, as a share of this distance; one further away belongs to another pair.
-const SAME: f64 = 0.5;
-
-impl Pair {
-    fn row(&self, signs: [i8; 2]) -> Row {
-        (self.speed, [0, 1].map(|k| (self.sloped[k].0, signs[k])))
-    }
-
-    /// Mean and half the difference of the two at another speed: of growing and decaying mode, or of two waves. The mean and
-    /// the square of the difference are smooth through the edge of the band and are continued by their slopes.
-    fn predicted(&self, speed: f64, is_coalesced: bool) -> [c64; 2] {
-        let [(first, first_slope), (second, second_slope)] = self.sloped;
-        let step = speed - self.speed;
-        let mean = 0.5 * (first + second + (first_slope + second_slope) * step);
-        let known = 0.5 * (first - second);
-        let square = known * known + known * (first_slope - second_slope) * step;
-        let size = square.re.abs().sqrt();
-        let half = if is_coalesced {
-            c64::new(size, 0.0)
-        } else {
-            c64::new(0.0, size)
-        };
-        [c64::new(0.0, mean.im), half]
-    }
-}
-
-/// Pairs of eigenvalues of a saw.
-struct Pairs<'a>(&'a SpectralModel);
-
-impl Pairs<'_> {
-    /// The growing and the decaying mode of a band at its peak.
-    fn at_peak(&self, band: &Instability) -> Option<Pair> {
-        let growing = c64::new(band.peak_growth_per_s, 0.0);
-        let mean = c64::new(0.0, band.frequency_rad_per_s);
-        self.at(band.peak_rad_per_s, [mean, growing])
-    }
-
-    /// The pair at a speed from its expected mean and half difference. `None` if it is not there.
-    fn at(&self, speed: f64, [mean, half]: [c64; 2]) -> Option<Pair> {
-        let next_to = |expected: c64| {
-            let found = self.0.next_to(speed, expected)?;
-            ((found.0 - expected).norm() <= SAME * half.norm()).then_some(found)
-        };
-        let first = next_to(mean + half)?;
-        if half.re > 0.0 {
-            let (lambda, slope) = first;
-            let sloped = [first, (-lambda.conj(), -slope.conj())];
-            return (lambda.re > 0.0).then_some(Pair { speed, sloped });
-        }
-        let sloped = [first, next_to(mean - half)?];
-        let are_waves = sloped
-            .iter()
-            .all(|(lambda, _)| lambda.re.abs() <= ROUNDING * half.norm());
-        let imaginary = |z: c64| c64::new(0.0, z.im);
-        are_waves.then_some(Pair {
+impl Node {
+    /// The pair of two modes that have coalesced, or of two waves of opposite sign, those of sign + first.
+    fn new(speed: f64, [first, second]: [&Mode; 2]) -> Option<Self> {
+        use ModeKind::{Decaying, Flutter, Negative, Positive};
+        let kinds = (first.kind, second.kind);
+        let half = 0.5 * (first.lambda - second.lambda);
+        let is_pair = matches!(kinds, (Flutter, Decaying) | (Positive, Negative));
+        is_pair.then(|| Node {
             speed,
-            sloped: sloped.map(|(lambda, slope)| (imaginary(lambda), imaginary(slope))),
+            mean: [
+                0.5 * (first.lambda + second.lambda).im,
+                0.5 * (first.slope + second.slope).im,
+            ],
+            square: [(half * half).re, (half * (first.slope - second.slope)).re],
+            is_above: half.im > 0.0,
         })
     }
+}
 
-    /// Rows of a pair at successive speeds, as long as its modes are coalesced within the band and waves of opposite
-    /// sign beside it, the one of sign +1 first.
-    fn followed(
-        &self,
-        peak: Pair,
-        band: &Instability,
-        speeds: impl Iterator<Item = f64>,
-    ) -> Result<Vec<Row>, SpectrumError> {
-        let (mut rows, mut beside): (Vec<Row>, Vec<Pair>) = Default::default();
-        let mut last = peak;
-        for speed in speeds {
-            let is_inside = band.range().contains(speed);
-            let Some(next) = self.at(speed, last.predicted(speed, is_inside)) else {
-                break;
-            };
-            if is_inside {
-                rows.push(next.row([0, 0]))
-            } else {
-                beside.push(next)
-            }
-            last = next;
-        }
-        // Next to a coalescence at either end signs are rounding.
-        let Some(middle) = beside.get(beside.len() / 2) else {
-            return Ok(rows);
+/// The pair of a band at the speeds of a chart within a range, ascending.
+fn nodes(campbell: &Campbell, band: &Instability, range: SpeedRange) -> Option<Vec<Node>> {
+    let speed = |sample: usize| campbell.samples[sample].speed_rad_per_s;
+    let samples = 0..campbell.samples.len();
+    let peak = samples.clone().find(|k| speed(*k) == band.peak_rad_per_s)?;
+    let growing = c64::new(band.peak_growth_per_s, band.frequency_rad_per_s);
+    let branch = |kind: ModeKind, lambda: c64| -> Option<&Branch> {
+        let modes = campbell.samples[peak].modes.iter().enumerate();
+        let of_kind = modes.filter(|(_, named)| named.mode.kind == kind);
+        let off = |(_, named): &(usize, &NamedMode)| (named.mode.lambda - lambda).norm();
+        let (place, _) = smallest(of_kind, off)?;
+        let passes = |branch: &&Branch| branch.points.contains(&(peak, place));
+        campbell.branches.iter().find(passes)
+    };
+    let both = [
+        branch(ModeKind::Flutter, growing)?,
+        branch(ModeKind::Decaying, -growing.conj())?,
+    ];
+    let node = |sample: usize| {
+        let of = |branch: &Branch| {
+            let place = branch.points.binary_search_by_key(&sample, |point| point.0);
+            place
+                .ok()
+                .map(|place| &campbell.mode(branch.points[place]).mode)
         };
-        let is_reversed = match self.signs(middle)? {
-            [Some(1), Some(-1)] => false,
-            [Some(-1), Some(1)] => true,
-            _ => return Ok(rows),
-        };
-        rows.extend(beside.into_iter().map(|mut pair| {
-            if is_reversed {
-                pair.sloped.reverse();
-            }
-            pair.row([1, -1])
-        }));
-        Ok(rows)
-    }
+        let node = Node::new(speed(sample), [of(both[0])?, of(both[1])?])?;
+        let is_inside = band.range().contains(node.speed);
+        let is_wanted = range.contains(node.speed) && is_inside == (node.square[0] > 0.0);
+        is_wanted.then_some(node)
+    };
+    let mut nodes: Vec<Node> = (0..=peak).rev().map_while(node).collect();
+    nodes.reverse();
+    nodes.extend((peak + 1..samples.end).map_while(node));
+    (!nodes.is_empty()).then_some(nodes)
+}
 
-    /// Krein signs of a pair.
-    fn signs(&self, pair: &Pair) -> Result<[Option<i8>; 2], SpectrumError> {
-        let modes = self.0.all_modes(pair.speed)?;
-        Ok(pair.sloped.map(|(lambda, _)| {
-            let nearest = smallest(&modes, |mode| (mode.lambda - lambda).norm());
-            nearest.map(Mode::krein_sign)
-        }))
-    }
+/// λ and Krein sign of both modes at a speed between two nodes.
+fn value(nodes: &[Node], speed: f64, is_coalesced: bool) -> [(c64, i8); 2] {
+    let after = nodes.partition_point(|node| node.speed < speed);
+    let [last, next] = [after.saturating_sub(1), after.min(nodes.len() - 1)].map(|k| nodes[k]);
+    let width = next.speed - last.speed;
+    let share = if width > 0.0 {
+        (speed - last.speed) / width
+    } else {
+        0.0
+    };
+    let at = |part: fn(&Node) -> [f64; 2]| {
+        let ends = [part(&last), part(&next)];
+        let cubic = Cubic {
+            values: ends.map(|end| end[0]),
+            slopes: ends.map(|end| end[1] * width),
+        };
+        cubic.at(share)
+    };
+    let mean = c64::new(0.0, at(|node| node.mean));
+    let size = at(|node| node.square).abs().sqrt();
+    let half = match (is_coalesced, if share < 0.5 { last } else { next }) {
+        (true, _) => c64::new(size, 0.0),
+        (false, node) if node.is_above => c64::new(0.0, size),
+        (false, _) => c64::new(0.0, -size),
+    };
+    let signs = if is_coalesced { [0, 0] } else { [1, -1] };
+    [(mean + half, signs[0]), (mean - half, signs[1])]
 }
 
 #[cfg(test)]
@@ -192,39 +168,44 @@ mod tests {
     use super::*;
     use crate::model::plate::{Plate, Resolution};
     use crate::model::scene::{Accuracy, Scene};
-    use crate::modes::{Strategy, companion_eigenpairs};
+    use crate::modes::{SpectralModel, Strategy, companion_eigenpairs};
     use crate::stability::{InstabilityKind, chart};
 
-    /// Reference: all eigenvalues of the whole matrix at the end of a range that cuts a band.
+    /// Reference: all eigenvalues of the whole matrix along the paths of a band that the range cuts.
     #[test]
     #[cfg_attr(debug_assertions, ignore = "dense solves: run it in release")]
-    fn paths_continue_to_the_end_of_a_range_that_cuts_their_band() {
+    fn paths_are_eigenvalues_up_to_the_end_of_a_range_that_cuts_their_band() {
+        // The band lasts from 2255.9 to 2266.1 rpm.
+        let range = SpeedRange::between_rpm(0.0, 2264.0);
         let plate = Plate::new(&Scene::paper(), Resolution::of(Accuracy::Draft));
-        let range = SpeedRange::between_rpm(0.0, 2300.0);
         let model = SpectralModel::new(plate, range, Strategy::Reduced).unwrap();
-        let bands = chart(&model, range, 5, &|_, _| ()).unwrap().instabilities;
+        let chart = chart(&model, range, 5, &|_, _| ()).unwrap();
         let flutter = |band: &&Instability| band.kind == InstabilityKind::Flutter;
-        let whole = bands.iter().rfind(flutter).unwrap();
-        let end = 0.5 * (whole.peak_rad_per_s + whole.to_rad_per_s);
-        let cut = Instability {
-            to_rad_per_s: end,
-            ..whole.clone()
-        };
-        let loci = RootLoci::new(&model, &cut, SpeedRange::new(0.0, end))
-            .unwrap()
-            .unwrap();
-        assert_eq!(loci.speeds.last(), Some(&end));
+        let band = chart.instabilities.iter().rfind(flutter).unwrap();
+        assert!(!band.closed);
+        let loci = RootLoci::new(&chart.campbell, band, range).unwrap();
+        assert_eq!(loci.speeds.last(), Some(&range.to_rad_per_s));
         assert!(loci.speeds.windows(2).all(|pair| pair[0] < pair[1]));
-        let dense = companion_eigenpairs(&model.components[0].full, end).unwrap();
-        for (path, sign) in loci.paths.iter().zip([1.0, -1.0]) {
-            let (lambda, _) = path[path.len() - 1];
-            assert!(sign * lambda.re > 0.5 * whole.peak_growth_per_s, "{lambda}");
-            let off = dense
-                .iter()
-                .map(|(exact, _)| (exact - lambda).norm())
-                .fold(f64::INFINITY, f64::min);
-            // A figure resolves a thousandth of the growth.
-            assert!(off < 1e-3 * lambda.re.abs(), "{lambda}: {off:e}");
+        let (mut beside, mut within) = (0, 0);
+        for (k, &speed) in loci.speeds.iter().enumerate().rev().step_by(7) {
+            let dense = companion_eigenpairs(&model.components[0].full, speed).unwrap();
+            for (path, sign) in loci.paths.iter().zip([1.0, -1.0]) {
+                let (lambda, krein) = path[k];
+                match krein {
+                    0 => within += usize::from(sign * lambda.re > 0.0),
+                    _ => beside += usize::from(f64::from(krein) == sign),
+                }
+                let off = dense
+                    .iter()
+                    .map(|(exact, _)| (exact - lambda).norm())
+                    .fold(f64::INFINITY, f64::min);
+                // A figure resolves a few thousandths of the growth.
+                assert!(
+                    off < 2e-3 * band.peak_growth_per_s,
+                    "{speed} {lambda}: {off:e}"
+                );
+            }
         }
+        assert!(beside >= 4 && within >= 8, "{beside} {within}");
     }
 }

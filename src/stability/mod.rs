@@ -35,7 +35,6 @@ mod loci;
 #[cfg(test)]
 mod material_damping_tests;
 mod mode_counts;
-mod nearest_pairs;
 mod onsets;
 mod options;
 mod partition;

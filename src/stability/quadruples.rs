@@ -3,9 +3,9 @@
 use faer::c64;
 
 use super::band::CurvePoint;
-use super::nearest_pairs::nearest_pairs;
 use super::partition::{Plane, Sample};
 use super::pieces::{Grouped, Piece};
+use crate::modes::nearest_pairs;
 
 /// Begin or end of an interval.
 #[derive(Debug, Clone, Copy, PartialEq)]

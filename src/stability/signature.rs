@@ -61,15 +61,8 @@ impl Signature {
                 ModeKind::Decaying | ModeKind::Rigid | ModeKind::Damped => continue,
             };
             let (lambda, slope) = match sign {
-                Sign::Plus | Sign::Minus => (
-                    c64::new(0.0, mode.lambda.im),
-                    c64::new(0.0, mode.frequency_slope),
-                ),
-                Sign::Quadruple => (mode.lambda, mode.growth_slope),
-                Sign::Real => (
-                    c64::new(mode.lambda.re, 0.0),
-                    c64::new(mode.growth_slope.re, 0.0),
-                ),
+                Sign::Plus | Sign::Minus | Sign::Quadruple => (mode.lambda, mode.slope),
+                Sign::Real => (c64::from(mode.lambda.re), c64::from(mode.slope.re)),
             };
             list.push(SignedMode {
                 sign,

@@ -2,7 +2,7 @@
 
 use rayon::prelude::*;
 
-use super::band::Instability;
+use super::band::{Instability, InstabilityKind};
 use super::certification::{Depth, Searched, bands, contradictions};
 use super::detail::Detail;
 use super::error::AnalysisError;
@@ -56,8 +56,8 @@ pub(super) fn charted(
     let mut samples = searched_samples(model, solved, drawn);
     let unsearched = speeds_beside(&samples, speeds);
     samples.extend(branches::sample(model, &unsearched, progress)?);
-    let peaks = peaks(&found.instabilities, &samples, range);
-    samples.extend(branches::sample(model, &peaks, &|_, _| ())?);
+    let of_bands = of_bands(&found.instabilities, &samples, range);
+    samples.extend(branches::sample(model, &of_bands, &|_, _| ())?);
     samples.sort_by(|x, y| x.speed_rad_per_s.total_cmp(&y.speed_rad_per_s));
     let samples = branches::refined(model, samples, closeness)?;
     let drawn: Vec<Signature> = samples.iter().map(signature_of).collect();
@@ -225,14 +225,34 @@ fn away_from_critical(model: &SpectralModel, mut speeds: Vec<f64>) -> Vec<f64> {
     speeds
 }
 
-/// Speeds of the largest growth of bands, except those of samples.
-fn peaks(instabilities: &[Instability], samples: &[SpeedSample], range: SpeedRange) -> Vec<f64> {
-    let mut speeds: Vec<f64> = instabilities
-        .iter()
-        .map(|band| band.peak_rad_per_s)
-        .collect();
-    speeds.retain(|s| range.contains(*s));
-    speeds.retain(|s| samples.iter().all(|sample| sample.speed_rad_per_s != *s));
+/// Share of the width of a band within which a chart has a speed on each side of its edges.
+const BESIDE_EDGE: f64 = 0.06;
+
+/// Speeds at which the largest growth and both edges of bands are drawn, except those near which there are samples.
+fn of_bands(instabilities: &[Instability], samples: &[SpeedSample], range: SpeedRange) -> Vec<f64> {
+    let is_sampled = |within: SpeedRange| {
+        let mut speeds = samples.iter().map(|sample| sample.speed_rad_per_s);
+        speeds.any(|speed| within.contains(speed))
+    };
+    let mut speeds = Vec::new();
+    for band in instabilities {
+        let peak = band.peak_rad_per_s;
+        speeds.extend((!is_sampled(SpeedRange::new(peak, peak))).then_some(peak));
+        // Speeds on both sides of every critical speed are samples.
+        if band.kind == InstabilityKind::Divergence {
+            continue;
+        }
+        let beside = BESIDE_EDGE * band.range().width();
+        for edge in band.range().ends() {
+            let sides = [
+                SpeedRange::new(edge - beside, edge),
+                SpeedRange::new(edge, edge + beside),
+            ];
+            let open = sides.into_iter().filter(|side| !is_sampled(*side));
+            speeds.extend(open.map(|side| 0.5 * (side.from_rad_per_s + side.to_rad_per_s)));
+        }
+    }
+    speeds.retain(|speed| range.contains(*speed));
     speeds.sort_by(f64::total_cmp);
     speeds.dedup();
     speeds

@@ -2,13 +2,8 @@
 //!
 //! The input is a [`SpectralModel`] and speeds in rad/s. The result is a [`Campbell`], which contains the
 //! modes at every speed, and the modes that belong to each branch.
-//!
-//! To follow modes, each is converted to positive action: a reflected wave (ω, q) with Krein sign −1 is the same
-//! motion as (−ω, q̄) with sign +1. A backward wave then passes through its critical speed
-//! without changing its shape, and modes of opposite sign cannot be mistaken for each other.
 
-mod assignment;
-mod matching;
+mod links;
 mod refinement;
 
 use faer::c64;
@@ -17,11 +12,10 @@ use rayon::prelude::*;
 use crate::model::plate::Plate;
 use crate::model::scene::rpm;
 use crate::modes::{
-    HarmonicShare, NamedCriticalSpeed, NamedMode, SpectralModel, SpectrumError, Work,
+    HarmonicShare, Mode, NamedCriticalSpeed, NamedMode, SpectralModel, SpectrumError, Work,
 };
 
-use matching::Match;
-use matching::{Sighted, match_modes};
+use links::links;
 pub(crate) use refinement::{Closeness, refined};
 
 /// Progress callback: number of speeds done and number of speeds in total.
@@ -64,6 +58,18 @@ pub struct SpeedSample {
     pub speed_rad_per_s: f64,
     /// Modes up to the model's `complete_to`, ordered by frequency.
     pub modes: Vec<NamedMode>,
+}
+
+impl SpeedSample {
+    /// Index of the mode at a higher speed that continues each mode, see [`links`].
+    fn links(&self, after: &SpeedSample, height_rad_per_s: f64) -> Vec<Option<usize>> {
+        let modes = [self, after].map(|sample| -> Vec<&Mode> {
+            let modes = sample.modes.iter();
+            modes.map(|named| &named.mode).collect()
+        });
+        let step = after.speed_rad_per_s - self.speed_rad_per_s;
+        links([&modes[0], &modes[1]], step, height_rad_per_s)
+    }
 }
 
 /// One mode followed over speed.
@@ -197,23 +203,21 @@ impl Campbell {
     /// that height, and ends at the last speed or at that height.
     pub fn track(mut samples: Vec<SpeedSample>, height_rad_per_s: f64) -> Self {
         samples.sort_by(|x, y| x.speed_rad_per_s.total_cmp(&y.speed_rad_per_s));
-        let matches: Vec<Vec<Match>> = samples
+        let links: Vec<Vec<Option<usize>>> = samples
             .par_windows(2)
-            .map(|pair| {
-                let seen = [&pair[0], &pair[1]].map(|s| Sighted::of_named(&s.modes));
-                let step = pair[1].speed_rad_per_s - pair[0].speed_rad_per_s;
-                match_modes([&seen[0], &seen[1]], step, height_rad_per_s)
-            })
+            .map(|pair| pair[0].links(&pair[1], height_rad_per_s))
             .collect();
         let mut branches: Vec<Branch> = Vec::new();
         // `current` contains, for each mode of the previous sample, the index of its branch.
         let mut current: Vec<usize> = Vec::new();
         for (index, sample) in samples.iter().enumerate() {
-            let before = index.checked_sub(1);
-            let matches = before.map_or(&[][..], |before| &matches[before]);
             let mut next = vec![usize::MAX; sample.modes.len()];
-            for found in matches {
-                next[found.after] = current[found.before];
+            let before = index.checked_sub(1);
+            let links = before.map_or(&[][..], |before| &links[before]);
+            for (branch, after) in current.iter().zip(links) {
+                if let Some(after) = after {
+                    next[*after] = *branch;
+                }
             }
             for (mode, branch) in next.iter_mut().enumerate() {
                 if *branch == usize::MAX {

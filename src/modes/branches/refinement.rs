@@ -1,10 +1,9 @@
-//! Additional speeds of a chart where a branch bends, turns into another, or leaves the chart.
+//! Additional speeds of a chart where a branch bends or leaves the chart.
 
 use rayon::prelude::*;
 
-use super::matching::{Match, Sighted, match_modes};
 use super::{CampbellError, SpeedSample, room_for_more, sample};
-use crate::modes::{ModeKind, NamedMode, SpectralModel};
+use crate::modes::{Mode, ModeKind, NamedMode, SpectralModel};
 
 /// Accuracy of the lines of a chart.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -13,8 +12,6 @@ pub struct Closeness {
     pub chord: f64,
     /// Distance below the top of the chart at which a line may end, as a share of its height.
     pub end: f64,
-    /// Smallest likeness of the shapes of one branch at two neighbouring speeds.
-    pub alike: f64,
     /// Number of times that a step may be halved.
     pub halvings: usize,
 }
@@ -22,16 +19,14 @@ pub struct Closeness {
 impl Closeness {
     /// Accuracy of a figure of some hundred pixels.
     pub const FIGURE: Closeness = Closeness {
-        chord: 0.003,
+        chord: 0.0015,
         end: 0.01,
-        alike: 0.7,
         halvings: 6,
     };
     /// Accuracy of a preview: branches are followed but drawn with corners.
     pub const SKETCH: Closeness = Closeness {
         chord: 0.02,
         end: 0.1,
-        alike: 0.3,
         halvings: 3,
     };
 }
@@ -87,47 +82,41 @@ fn is_doubtful(
 ) -> bool {
     let height = model.complete_to_rad_per_s;
     let step = after.speed_rad_per_s - before.speed_rad_per_s;
-    let seen = [before, after].map(|sample| Sighted::of_named(&sample.modes));
-    let matches = match_modes([&seen[0], &seen[1]], step, height);
-    let ends_inside = |modes: &[NamedMode], matched: &dyn Fn(usize) -> bool| {
-        let left = modes.iter().enumerate().filter(|(i, _)| !matched(*i));
-        let mut frequencies = left.map(|(_, m)| m.mode.frequency_rad_per_s());
-        frequencies.any(|f| f < (1.0 - closeness.end) * height)
+    let links = before.links(after, height);
+    let ends_inside = |modes: &[NamedMode], is_linked: &dyn Fn(usize) -> bool| {
+        let mut left = modes.iter().enumerate().filter(|(k, _)| !is_linked(*k));
+        left.any(|(_, m)| m.mode.frequency_rad_per_s() < (1.0 - closeness.end) * height)
     };
-    let doubtful = |m: &Match| {
-        let ends = [&before.modes[m.before], &after.modes[m.after]];
-        m.likeness < closeness.alike
-            || bend(ends, step) > closeness.chord * height
-            || growth_bends(ends, step)
+    let doubtful = |(k, next): (usize, &Option<usize>)| {
+        let Some(next) = *next else { return false };
+        let ends = [&before.modes[k], &after.modes[next]].map(|named| &named.mode);
+        bend(ends, step) > closeness.chord * height || growth_bends(ends, step)
     };
-    ends_inside(&before.modes, &|i| matches.iter().any(|m| m.before == i))
-        || ends_inside(&after.modes, &|i| matches.iter().any(|m| m.after == i))
-        || matches.iter().any(doubtful)
+    ends_inside(&before.modes, &|k| links[k].is_some())
+        || ends_inside(&after.modes, &|k| links.contains(&Some(k)))
+        || links.iter().enumerate().any(doubtful)
 }
 
 /// Distance, in rad/s, in the middle of a step between the cubic through two frequencies with their slopes
 /// and the line; 0 if a mode is not a wave.
-fn bend(ends: [&NamedMode; 2], step: f64) -> f64 {
-    let is_wave = |m: &NamedMode| m.mode.krein_sign() != 0 || m.mode.kind == ModeKind::Damped;
+fn bend(ends: [&Mode; 2], step: f64) -> f64 {
+    let is_wave = |mode: &Mode| mode.krein_sign() != 0 || mode.kind == ModeKind::Damped;
     if !ends.into_iter().all(is_wave) {
         return 0.0;
     }
-    let slope = |m: &NamedMode| f64::from(m.mode.action) * m.mode.frequency_slope;
+    let slope = |mode: &Mode| f64::from(mode.action) * mode.slope.im;
     0.125 * (slope(ends[0]) - slope(ends[1])).abs() * step
 }
 
 /// Whether the squared growth rates of a growing mode, nearly a parabola over a band, deviate too far from a
 /// line.
-fn growth_bends(ends: [&NamedMode; 2], step: f64) -> bool {
-    let grows = |m: &NamedMode| matches!(m.mode.kind, ModeKind::Flutter | ModeKind::Divergent);
+fn growth_bends(ends: [&Mode; 2], step: f64) -> bool {
+    let grows = |mode: &Mode| matches!(mode.kind, ModeKind::Flutter | ModeKind::Divergent);
     if !ends.into_iter().all(grows) {
         return false;
     }
-    let squares = ends.map(|m| m.mode.lambda.re.powi(2));
-    let slope = |k: usize| {
-        let mode = &ends[k].mode;
-        2.0 * mode.lambda.re * mode.growth_slope.re
-    };
-    let bend = 0.125 * (slope(0) - slope(1)).abs() * step;
+    let squares = ends.map(|mode| mode.lambda.re.powi(2));
+    let slopes = ends.map(|mode| 2.0 * mode.lambda.re * mode.slope.re);
+    let bend = 0.125 * (slopes[0] - slopes[1]).abs() * step;
     bend > GROWTH_CHORD * squares[0].max(squares[1])
 }

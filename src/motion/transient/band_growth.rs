@@ -114,7 +114,7 @@ impl Growing {
         Some(Growing {
             speed,
             lambda: mode.lambda,
-            slope: mode.growth_slope,
+            slope: mode.slope,
             component: Some(mode.component),
         })
     }

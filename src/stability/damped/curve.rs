@@ -7,10 +7,9 @@
 use faer::c64;
 
 use super::spectrum::finite;
-use crate::modes::smallest;
+use crate::modes::{nearest_pairs, smallest};
 use crate::stability::band::CurvePoint;
 use crate::stability::group::Sloped;
-use crate::stability::nearest_pairs::nearest_pairs;
 use crate::stability::pieces::{Grouped, Piece};
 use crate::stability::verdict::growth_between;
 
