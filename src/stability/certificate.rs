@@ -5,7 +5,7 @@ use serde::{Deserialize, Serialize};
 
 use super::band::{Instability, InstabilityKind};
 use super::mode_counts::MiscountedModes;
-use super::signature::Signature;
+use super::sample::Sample;
 use crate::model::scene::{SpeedRange, rpm};
 
 /// Results of the checks of a list of bands: comparisons of the Krein index with the spectra, mode counts on the
@@ -66,18 +66,18 @@ pub struct ContradictedBands {
 /// Relative distance from the edge of a band within which a speed may be on either side of it: the coarser
 /// models of search and chart shift edges by 1e-5.
 const EDGE_TOLERANCE: f64 = 5e-5;
-/// Share by which a mode may grow faster than the peak of its band, because the coarse models of the search have
-/// such errors, see `LIKENESS` of the continuation.
+/// Share by which a mode may grow faster than the peak of its band, because a mode of the chart is not
+/// refined.
 const PEAK_TOLERANCE: f64 = 0.03;
 
 /// Compares bands with the modes at a speed: each kind must have as many bands as unstable modes, and no mode
 /// may grow faster than the peak of its band. `floor_per_s` is the growth below which a mode may be rounding.
 pub fn mismatches(
     bands: &[Instability],
-    signature: &Signature,
+    sample: &Sample,
     floor_per_s: f64,
 ) -> Vec<ContradictedBands> {
-    let speed = signature.speed_rad_per_s;
+    let speed = sample.speed_rad_per_s;
     let near = |edge: f64| (speed / edge - 1.0).abs() <= EDGE_TOLERANCE;
     if bands
         .iter()
@@ -85,8 +85,8 @@ pub fn mismatches(
     {
         return Vec::new();
     }
-    let flutter = signature.quadruples.iter().map(|mode| mode.lambda.re);
-    let divergence = signature.divergence().map(|mode| mode.lambda.re);
+    let flutter = sample.quadruples().map(|(lambda, _)| lambda.re);
+    let divergence = sample.divergences().next().map(|(lambda, _)| lambda.re);
     let growth = [
         (InstabilityKind::Flutter, flutter.collect()),
         (
@@ -139,7 +139,6 @@ mod tests {
     use faer::c64;
 
     use super::*;
-    use crate::stability::signature::{Sign, SignedMode};
 
     fn band(kind: InstabilityKind, from: f64, to: f64, peak_growth_per_s: f64) -> Instability {
         Instability {
@@ -155,18 +154,13 @@ mod tests {
     }
 
     /// Two flutter modes of growth 2 and 1 at 100 rad/s.
-    fn fluttering() -> Signature {
-        let mode = |growth| SignedMode {
-            sign: Sign::Quadruple,
-            lambda: c64::new(growth, 10.0),
-            slope: c64::new(0.0, 0.0),
+    fn fluttering() -> Sample {
+        let quadruple = |growth: f64| {
+            let square = c64::new(growth, 10.0) * c64::new(growth, 10.0);
+            [square, square.conj()].map(|square| ((square, c64::ZERO), 0))
         };
-        Signature {
-            speed_rad_per_s: 100.0,
-            waves: Vec::new(),
-            quadruples: vec![mode(1.0), mode(2.0)],
-            real: Vec::new(),
-        }
+        let squares = [1.0, 2.0].into_iter().flat_map(quadruple);
+        Sample::of_squares(100.0, squares.collect())
     }
 
     fn wrong(bands: &[Instability]) -> usize {

@@ -4,8 +4,8 @@ use super::certification::{Depth, GROWTH_FLOOR, contradictions};
 use super::damped;
 use super::error::AnalysisError;
 use super::options::AnalysisOptions;
+use super::sample::Sample;
 use super::search_result::StabilityChart;
-use super::signature::Signature;
 use super::undamped;
 use crate::model::scene::SpeedRange;
 use crate::modes::branches::Progress;
@@ -24,8 +24,8 @@ impl StabilityChart {
     ) {
         let (bands, certificate) = (&self.instabilities, &mut self.certificate);
         if model.is_conservative() {
-            let signature = Signature::new(speed_rad_per_s, modes.iter());
-            let wrong = contradictions(bands, &[signature], GROWTH_FLOOR);
+            let sample = Sample::of_modes(speed_rad_per_s, modes.iter());
+            let wrong = contradictions(bands, &[sample], GROWTH_FLOOR);
             certificate.mismatches.extend(wrong);
         } else {
             let wrong = damped::contradicted(model, bands, speed_rad_per_s, modes);

@@ -6,29 +6,28 @@ use super::band::{CurvePoint, Instability, InstabilityKind};
 use super::evaluator::{CRITICAL_GAP, CRITICAL_GROUP, SignatureEvaluator};
 use super::flutter::VICINITY;
 use super::growing_stretch::{End, GrowingStretch};
+use super::sample::Sample;
 use super::search_result::Found;
-use super::signature::Signature;
 use crate::model::scene::SpeedRange;
 use crate::modes::{SpectralModel, SpectrumError, smallest};
 
-/// Intervals of divergence, from signatures in ascending order. They begin and end at critical speeds or at
+/// Intervals of divergence, from samples in ascending order. They begin and end at critical speeds or at
 /// `coalescences`, where two real λ continue as flutter.
 pub(super) fn divergence(
     model: &SpectralModel,
     evaluator: &SignatureEvaluator<'_>,
-    signatures: &[Signature],
+    samples: &[Sample],
     coalescences: &[CurvePoint],
 ) -> Result<Vec<GrowingStretch>, SpectrumError> {
     let critical: Vec<f64> = model.critical.iter().map(|c| c.speed_rad_per_s).collect();
-    let mut signatures = signatures.to_vec();
-    for speed in unseen(&signatures, &critical, coalescences) {
-        signatures.push(evaluator.at(speed)?);
+    let mut samples = samples.to_vec();
+    for speed in unseen(&samples, &critical, coalescences) {
+        samples.push(evaluator.at(speed)?);
     }
-    signatures.sort_by(|x, y| x.speed_rad_per_s.total_cmp(&y.speed_rad_per_s));
-    let diverges = |signature: &Signature| !signature.real.is_empty();
+    samples.sort_by(|x, y| x.speed_rad_per_s.total_cmp(&y.speed_rad_per_s));
     let mut stretches = Vec::new();
     let mut stable: Option<f64> = None;
-    let mut runs = signatures
+    let mut runs = samples
         .chunk_by(|x, y| diverges(x) == diverges(y))
         .peekable();
     while let Some(run) = runs.next() {
@@ -44,36 +43,40 @@ pub(super) fn divergence(
                 points,
             });
         }
-        stable = run.last().map(|signature| signature.speed_rad_per_s);
+        stable = run.last().map(|sample| sample.speed_rad_per_s);
     }
     Ok(stretches)
 }
 
+fn diverges(sample: &Sample) -> bool {
+    sample.divergences().next().is_some()
+}
+
 /// λ² of the fastest growing real λ.
-fn fastest(signature: &Signature) -> Option<CurvePoint> {
-    let mode = signature.divergence()?;
+fn fastest(sample: &Sample) -> Option<CurvePoint> {
+    let (lambda, slope) = sample.divergences().next()?;
     Some(CurvePoint {
-        speed_rad_per_s: signature.speed_rad_per_s,
-        number: mode.lambda * mode.lambda,
-        slope: 2.0 * mode.lambda * mode.slope,
+        speed_rad_per_s: sample.speed_rad_per_s,
+        number: lambda * lambda,
+        slope: 2.0 * lambda * slope,
     })
 }
 
-/// Speeds between two signatures at which divergence may be interrupted, because two real λ coalesce,
+/// Speeds between two samples at which divergence may be interrupted, because two real λ coalesce,
 /// continue as flutter and split again, or pass zero before others do. The result has the middle between
-/// every two neighbouring edges without a signature between them.
-fn unseen(signatures: &[Signature], critical: &[f64], coalescences: &[CurvePoint]) -> Vec<f64> {
+/// every two neighbouring edges without a sample between them.
+fn unseen(samples: &[Sample], critical: &[f64], coalescences: &[CurvePoint]) -> Vec<f64> {
     let mut edges: Vec<End> = Vec::new();
     edges.extend(critical.iter().copied().map(End::Critical));
     edges.extend(coalescences.iter().copied().map(End::Coalescence));
     edges.sort_by(|x, y| x.speed().total_cmp(&y.speed()));
     let is_unseen = |pair: &[End]| {
         let [from, to] = [pair[0].speed(), pair[1].speed()];
-        let next = signatures.partition_point(|signature| signature.speed_rad_per_s <= from);
-        let before = next.checked_sub(1).map(|last| &signatures[last]);
-        let both = before.zip(signatures.get(next));
+        let next = samples.partition_point(|sample| sample.speed_rad_per_s <= from);
+        let before = next.checked_sub(1).map(|last| &samples[last]);
+        let both = before.zip(samples.get(next));
         let passes = both.is_some_and(|(before, after)| {
-            after.speed_rad_per_s >= to && !before.real.is_empty() && !after.real.is_empty()
+            after.speed_rad_per_s >= to && diverges(before) && diverges(after)
         });
         let is_clear = to - from > 4.0 * CRITICAL_GAP.get() * to;
         let coalesce = |edge: &End| matches!(edge, End::Coalescence(_));
@@ -163,7 +166,6 @@ fn edge(critical: &[f64], coalescences: &[CurvePoint], stable: Option<f64>, unst
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::stability::signature::{Sign, SignedMode};
 
     fn double(speed_rad_per_s: f64) -> CurvePoint {
         CurvePoint {
@@ -173,21 +175,12 @@ mod tests {
         }
     }
 
-    /// Two real λ coalesce at 3 and split at 4, between the only two signatures, so that one more speed is
+    /// Two real λ coalesce at 3 and split at 4, between the only two samples, so that one more speed is
     /// examined.
     #[test]
-    fn a_speed_is_added_where_real_eigenvalues_coalesce_and_split_between_two_signatures() {
+    fn a_speed_is_added_where_real_eigenvalues_coalesce_and_split_between_two_samples() {
         let diverging = |speed_rad_per_s: f64| {
-            let real = SignedMode {
-                sign: Sign::Real,
-                lambda: c64::new(1.0, 0.0),
-                slope: c64::new(0.0, 0.0),
-            };
-            Signature {
-                speed_rad_per_s,
-                real: vec![real],
-                ..Signature::new(speed_rad_per_s, [].iter())
-            }
+            Sample::of_squares(speed_rad_per_s, vec![((c64::ONE, c64::ZERO), 0)])
         };
         let both = [diverging(2.0), diverging(5.0)];
         assert_eq!(unseen(&both, &[1.0, 6.0], &[3.0, 4.0].map(double)), [3.5]);

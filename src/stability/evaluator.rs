@@ -1,4 +1,4 @@
-//! Signature of an undamped blade at any speed, checked by its Krein index.
+//! Modes of an undamped blade at any speed, checked by its Krein index.
 
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicUsize, Ordering};
@@ -10,12 +10,9 @@ use faer::c64;
 use super::certificate::Certificate;
 use super::group::Sloped;
 use super::growth_curve::Numbers;
-use super::partition::{BESIDES, Plane, Sample};
-use super::signature::Signature;
+use super::sample::{BESIDES, Plane, Sample};
 use crate::model::tuning::Tuned;
-use crate::modes::{
-    DoubleEigenvalue, Mode, ModeKind, SpectralModel, SpectrumError, krein_index, smallest,
-};
+use crate::modes::{DoubleEigenvalue, Mode, SpectralModel, SpectrumError, krein_index, smallest};
 
 /// Relative distance of the search from critical speeds: λ² passes through zero there and is accurate only to
 /// 1e-15 of the stiffness.
@@ -53,8 +50,8 @@ pub struct SolvedSpeed {
 }
 
 impl SolvedSpeed {
-    fn signature(&self) -> Signature {
-        Signature::new(self.speed_rad_per_s, self.modes.iter())
+    fn sample(&self) -> Sample {
+        Sample::of_modes(self.speed_rad_per_s, self.modes.iter())
     }
 }
 
@@ -77,14 +74,14 @@ impl Numbers for SignatureEvaluator<'_> {
         if let Some(found) = found.filter(is_same) {
             return Ok(Some(square(found)));
         }
-        let signature = self.at(speed_rad_per_s)?;
-        let growing = signature.quadruples.iter().chain(&signature.real);
-        let nearest = smallest(growing, |mode| (mode.lambda - wanted).norm());
-        Ok(nearest.map(|mode| square((mode.lambda, mode.slope))))
+        let sample = self.at(speed_rad_per_s)?;
+        let growing = sample.quadruples().chain(sample.divergences());
+        let nearest = smallest(growing, |(lambda, _)| (lambda - wanted).norm());
+        Ok(nearest.map(square))
     }
 }
 
-/// Evaluates signatures, checks the Krein index of each, and counts them.
+/// Computes modes, checks the Krein index of each speed, and counts the speeds.
 pub struct SignatureEvaluator<'a> {
     model: &'a SpectralModel,
     tally: Tally,
@@ -126,12 +123,12 @@ impl<'a> SignatureEvaluator<'a> {
         self.tally.checked.load(Ordering::Relaxed) >= MOST_SPEEDS
     }
 
-    /// Computes the signature at a speed. If it contradicts the Krein index there and beside the speed, this is a violation.
+    /// Computes the sample of a speed. If it contradicts the Krein index there and beside the speed, this is a violation.
     ///
     /// # Errors
     /// [`SpectrumError`] when the eigenproblem fails.
-    pub fn at(&self, speed_rad_per_s: f64) -> Result<Signature, SpectrumError> {
-        Ok(self.checked(speed_rad_per_s)?.signature())
+    pub fn at(&self, speed_rad_per_s: f64) -> Result<Sample, SpectrumError> {
+        Ok(self.checked(speed_rad_per_s)?.sample())
     }
 
     /// Modes at a speed, with the checks of [`SignatureEvaluator::at`].
@@ -159,12 +156,12 @@ impl<'a> SignatureEvaluator<'a> {
         })
     }
 
-    /// Signature neither counted nor checked, for proposals that a proof checks.
+    /// Sample neither counted nor checked, for proposals that a proof checks.
     ///
     /// # Errors
     /// [`SpectrumError`] when the eigenproblem fails.
-    pub fn guess_at(&self, speed_rad_per_s: f64) -> Result<Signature, SpectrumError> {
-        Ok(self.solved(speed_rad_per_s)?.signature())
+    pub fn guess_at(&self, speed_rad_per_s: f64) -> Result<Sample, SpectrumError> {
+        Ok(self.solved(speed_rad_per_s)?.sample())
     }
 
     /// Squares of the eigenvalues at a speed, for a search by pieces. `None` next to a critical speed, where
@@ -180,47 +177,36 @@ impl<'a> SignatureEvaluator<'a> {
             return Ok(None);
         }
         let solved = self.checked(speed_rad_per_s)?;
-        let squares = self.squares(&solved.modes);
+        let sample = self.followed(&solved);
         if let Ok(mut seen) = self.seen.lock() {
             seen.push(solved);
         }
-        Ok(Some(Sample::of_squares(speed_rad_per_s, squares)))
+        Ok(Some(sample))
     }
 
-    /// λ² with slope and Krein sign, for the modes up to the height of the search and [`BESIDES`] above.
-    fn squares(&self, modes: &[Mode]) -> Vec<((c64, c64), i8)> {
-        use ModeKind::{Divergent, Flutter, Negative, Positive};
-        let mut followed: Vec<&Mode> = modes.iter().collect();
+    /// The modes up to the height of the search and [`BESIDES`] above, with a wave far above, because the reduced model may have
+    /// none there, in whose gap the search could end.
+    fn followed(&self, solved: &SolvedSpeed) -> Sample {
+        let mut followed: Vec<&Mode> = solved.modes.iter().collect();
         followed.sort_by(|x, y| x.lambda.im.total_cmp(&y.lambda.im));
         let height = self.height_rad_per_s();
         let below = followed.partition_point(|mode| mode.lambda.im <= height);
         followed.truncate(below + BESIDES);
-        let mut squares = Vec::new();
-        for mode in followed {
-            if !matches!(mode.kind, Positive | Negative | Flutter | Divergent) {
-                continue;
-            }
-            let (square, slope) = (mode.lambda * mode.lambda, 2.0 * mode.lambda * mode.slope);
-            if mode.kind == Flutter {
-                squares.push(((square, slope), 0));
-                squares.push(((square.conj(), slope.conj()), 0));
-            } else {
-                let real = |z: c64| c64::new(z.re, 0.0);
-                squares.push(((real(square), real(slope)), mode.krein_sign()));
-            }
-        }
-        // The reduced model may have no mode above the search, in whose gap the search could end.
         let fence = FENCE * self.model.complete_to_rad_per_s;
-        squares.retain(|((square, _), _)| square.re > -fence * fence);
-        squares.push(((c64::new(-fence * fence, 0.0), c64::ZERO), 1));
-        squares
+        followed.retain(|mode| mode.lambda.im < fence);
+        let mut sample = Sample::of_modes(solved.speed_rad_per_s, followed.into_iter());
+        sample
+            .eigenvalues
+            .push((c64::from(-fence * fence), c64::ZERO));
+        sample.signs.push(1);
+        sample
     }
 
-    /// Signatures at the sampled speeds, ascending.
-    pub fn signatures(&self) -> Vec<Signature> {
-        let mut all: Vec<Signature> = self.seen.lock().map_or_else(
+    /// Samples at the speeds of the search, ascending.
+    pub fn samples(&self) -> Vec<Sample> {
+        let mut all: Vec<Sample> = self.seen.lock().map_or_else(
             |_| Vec::new(),
-            |seen| seen.iter().map(SolvedSpeed::signature).collect(),
+            |seen| seen.iter().map(SolvedSpeed::sample).collect(),
         );
         all.sort_by(|x, y| x.speed_rad_per_s.total_cmp(&y.speed_rad_per_s));
         all
@@ -235,7 +221,7 @@ impl<'a> SignatureEvaluator<'a> {
         all
     }
 
-    /// Frequency up to which signatures are complete.
+    /// Frequency up to which samples are complete.
     pub fn height_rad_per_s(&self) -> f64 {
         self.model.reflected_to_rad_per_s
     }
@@ -255,8 +241,11 @@ impl<'a> SignatureEvaluator<'a> {
     /// # Errors
     /// [`SpectrumError`] when the eigenproblem fails.
     pub fn divergence(&self, speed_rad_per_s: f64) -> Result<f64, SpectrumError> {
-        let signature = self.guess_at(speed_rad_per_s)?;
-        Ok(signature.divergence().map_or(0.0, |mode| mode.lambda.re))
+        let sample = self.guess_at(speed_rad_per_s)?;
+        Ok(sample
+            .divergences()
+            .next()
+            .map_or(0.0, |(lambda, _)| lambda.re))
     }
 
     /// Whether a critical speed lies between two speeds.
@@ -274,19 +263,19 @@ impl<'a> SignatureEvaluator<'a> {
         krein_index(&solved.modes) == negative
     }
 
-    /// Signatures at many speeds, in parallel.
+    /// Samples at many speeds, in parallel.
     ///
     /// # Errors
     /// [`SpectrumError`] of the lowest speed that fails.
-    pub fn at_all(&self, speeds: &[f64]) -> Result<Vec<Signature>, SpectrumError> {
+    pub fn at_all(&self, speeds: &[f64]) -> Result<Vec<Sample>, SpectrumError> {
         let solved: Vec<SolvedSpeed> = speeds
             .par_iter()
             .map(|&speed| self.checked(speed))
             .collect::<Result<_, _>>()?;
-        let signatures = solved.iter().map(SolvedSpeed::signature).collect();
+        let samples = solved.iter().map(SolvedSpeed::sample).collect();
         if let Ok(mut others) = self.others.lock() {
             others.extend(solved);
         }
-        Ok(signatures)
+        Ok(samples)
     }
 }

@@ -8,9 +8,9 @@ use super::evaluator::SignatureEvaluator;
 use super::group::Sloped;
 use super::growing_stretch::{End, GrowingStretch};
 use super::growth_curve::Numbers;
-use super::partition::Plane;
 use super::pieces::Piece;
 use super::quadruples::{Bound, Stretch, stretches};
+use super::sample::Plane;
 use crate::modes::{DoubleEigenvalue, SpectrumError};
 
 /// Intervals of quadruples in the pieces of a search, by their begin.

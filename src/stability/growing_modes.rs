@@ -8,7 +8,7 @@ use faer::c64;
 
 use super::damped::counted_in_window;
 use super::mode_counts::{MiscountedModes, claims, of_claims};
-use super::signature::Signature;
+use super::sample::Sample;
 use crate::model::plate::Plate;
 use crate::model::system::GyroscopicSystem;
 use crate::modes::{
@@ -87,13 +87,13 @@ impl GrowingModes {
         let Some(negative) = negative else {
             return found;
         };
-        let signature = Signature::new(speed, modes.iter());
+        let sample = Sample::of_modes(speed, modes.iter());
         found.krein = Some([negative, krein_index(modes)]);
         if !plate.is_axisymmetric() {
             let highest = modes
                 .iter()
                 .fold(0.0, |top: f64, mode| top.max(mode.lambda.im));
-            let claims = claims(&signature, highest);
+            let claims = claims(&sample, highest);
             let counted = of_claims(
                 &FullModel::new(plate),
                 speed,

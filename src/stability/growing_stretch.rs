@@ -4,7 +4,7 @@ use faer::c64;
 
 use super::band::{CurvePoint, Instability, InstabilityKind};
 use super::growth_curve::{GrowthCurve, Numbers, between};
-use super::partition::Plane;
+use super::sample::Plane;
 use super::search_result::Found;
 use crate::model::scene::SpeedRange;
 use crate::modes::{SpectrumError, smallest};

@@ -5,8 +5,8 @@ use faer::c64;
 use super::band::CurvePoint;
 use super::group::Sloped;
 use super::interpolation::Cubic;
-use super::partition::Plane;
 use super::root::{Look, bracketed};
+use super::sample::Plane;
 use crate::modes::SpectrumError;
 
 /// Relative accuracy in speed of onsets, peaks and minima of growth.

@@ -28,6 +28,7 @@ mod growing_stretch;
 mod growth_curve;
 mod heat;
 mod hidden_growth;
+mod interpolated;
 mod interpolation;
 mod ladder;
 mod listed_pair;
@@ -44,9 +45,9 @@ mod quadruples;
 mod reach;
 mod room;
 mod root;
+mod sample;
 mod search_result;
 mod sensitivity;
-mod signature;
 #[cfg(test)]
 mod tuned_tests;
 mod undamped;

@@ -15,7 +15,7 @@ use rayon::prelude::*;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::signature::{Sign, Signature};
+use super::sample::{Sample, Wave};
 use crate::model::scene::rpm;
 use crate::modes::{AtSpeed, FullModel, SpectralModel, SpectrumError};
 
@@ -80,43 +80,43 @@ const BELOW_UPPER: f64 = 0.9;
 /// Smallest relative distance of all waves from a coalesced pair at whose frequency modes are counted.
 const CLEAR: f64 = 1e-3;
 
-/// Claims that confirm a signature: below all modes, between modes of opposite sign, and at the frequency of
+/// Claims that confirm a sample: below all modes, between modes of opposite sign, and at the frequency of
 /// every coalesced pair, ascending, and only below `height_rad_per_s`.
-pub(super) fn claims(signature: &Signature, height_rad_per_s: f64) -> Vec<Claim> {
-    let waves = &signature.waves;
+pub(super) fn claims(sample: &Sample, height_rad_per_s: f64) -> Vec<Claim> {
+    let waves = sample.waves();
     let mut claims = Vec::new();
     if let Some(lowest) = waves.first() {
         claims.push(Claim {
-            frequency_rad_per_s: 0.5 * lowest.lambda.im,
+            frequency_rad_per_s: 0.5 * lowest.frequency,
             net: 0,
         });
     }
     let mut net = 0;
     for (k, pair) in waves.windows(2).enumerate() {
-        net += of_sign(pair[0].sign);
+        net += isize::from(pair[0].sign);
         if pair[0].sign != pair[1].sign {
             let share = if k + 2 == waves.len() {
                 BELOW_UPPER
             } else {
                 0.5
             };
-            let low = pair[0].lambda.im;
-            let high = pair[1].lambda.im.min(height_rad_per_s);
+            let low = pair[0].frequency;
+            let high = pair[1].frequency.min(height_rad_per_s);
             claims.push(Claim {
                 frequency_rad_per_s: low + share * (high - low),
                 net,
             });
         }
     }
-    for pair in &signature.quadruples {
-        let frequency = pair.lambda.im;
+    for (lambda, _) in sample.quadruples() {
+        let frequency = lambda.im;
         let is_clear = |other: f64| (other / frequency - 1.0).abs() > CLEAR;
-        let highest = waves.last().map_or(0.0, |w| w.lambda.im);
-        if frequency < highest && waves.iter().all(|w| is_clear(w.lambda.im)) {
-            let below = waves.iter().filter(|w| w.lambda.im < frequency);
+        let highest = waves.last().map_or(0.0, |w| w.frequency);
+        if frequency < highest && waves.iter().all(|w| is_clear(w.frequency)) {
+            let below = waves.iter().filter(|w| w.frequency < frequency);
             claims.push(Claim {
                 frequency_rad_per_s: frequency,
-                net: below.map(|w| of_sign(w.sign)).sum(),
+                net: below.map(|w| isize::from(w.sign)).sum(),
             });
         }
     }
@@ -147,13 +147,17 @@ impl Gap {
 }
 
 /// Gaps between waves of opposite sign up to a height.
-pub(super) fn gaps(signature: &Signature, height_rad_per_s: f64) -> Vec<Gap> {
+pub(super) fn gaps(sample: &Sample, height_rad_per_s: f64) -> Vec<Gap> {
     let mut net = 0;
     let mut gaps = Vec::new();
-    for pair in signature.waves.windows(2) {
-        net += of_sign(pair[0].sign);
+    for pair in sample.waves().windows(2) {
+        net += isize::from(pair[0].sign);
         if pair[0].sign != pair[1].sign {
-            let [low, high] = [&pair[0], &pair[1]].map(|wave| (wave.lambda.im, wave.slope.im));
+            let [low, high] = [pair[0], pair[1]].map(
+                |Wave {
+                     frequency, slope, ..
+                 }| (frequency, slope),
+            );
             let top = (height_rad_per_s.max(low.0), 0.0);
             let high = if high.0 < top.0 { high } else { top };
             gaps.push(Gap {
@@ -163,15 +167,6 @@ pub(super) fn gaps(signature: &Signature, height_rad_per_s: f64) -> Vec<Gap> {
         }
     }
     gaps
-}
-
-/// Contribution of a mode to p − m.
-fn of_sign(sign: Sign) -> isize {
-    match sign {
-        Sign::Plus => 1,
-        Sign::Minus => -1,
-        Sign::Quadruple | Sign::Real => 0,
-    }
 }
 
 impl<'a> ModeCounts<'a> {
@@ -216,24 +211,21 @@ impl<'a> ModeCounts<'a> {
         self.basis.is_count_along(ends, line, count)
     }
 
-    /// Contradictions between counts and signatures of several speeds, up to a height.
+    /// Contradictions between counts and samples of several speeds, up to a height.
     ///
     /// # Errors
     /// [`SpectrumError::Cancelled`].
     pub fn miscounts(
         &self,
-        signatures: &[&Signature],
+        samples: &[&Sample],
         height_rad_per_s: f64,
     ) -> Result<Vec<MiscountedModes>, SpectrumError> {
-        let at = |signature: &&Signature| {
+        let at = |sample: &&Sample| {
             self.model.counters.cancellation.check()?;
-            Ok(self.of_claims(
-                signature.speed_rad_per_s,
-                &claims(signature, height_rad_per_s),
-            ))
+            Ok(self.of_claims(sample.speed_rad_per_s, &claims(sample, height_rad_per_s)))
         };
         let found: Vec<Result<Vec<MiscountedModes>, SpectrumError>> =
-            signatures.par_iter().map(at).collect();
+            samples.par_iter().map(at).collect();
         let all = found.into_iter().collect::<Result<Vec<_>, _>>()?;
         Ok(all.into_iter().flatten().collect())
     }

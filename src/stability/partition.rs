@@ -3,106 +3,13 @@
 use faer::c64;
 
 use super::group::Sloped;
+use super::sample::{Plane, Sample};
 
 /// Two numbers are not distinguished if they differ by less than this share of the highest frequency (or its
 /// square).
 const LEAST_STEP: f64 = 1e-9;
 /// Two eigenvalues may coalesce if their difference, continued by its slope, falls below this share of its size.
 const COALESCING: f64 = 0.3;
-
-/// Number of modes above the highest accurate frequency among which a search finds a gap to end in.
-pub const BESIDES: usize = 8;
-
-/// Numbers that a search follows over speed.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Plane {
-    /// λ, with the conjugate of each oscillating one.
-    Eigenvalues,
-    /// z = λ² of an undamped saw, one for each pair ±λ: a wave has z < 0, a divergent mode z > 0, and the two
-    /// modes of a quadruple ±σ ± iω have conjugate z. A mode that turns into divergence passes z = 0 like any
-    /// other number.
-    Squares,
-}
-
-impl Plane {
-    /// Growth rate Re λ of a number: for λ² that of the growing one of ±λ.
-    pub fn growth_per_s(self, number: c64) -> f64 {
-        match self {
-            Plane::Eigenvalues => number.re,
-            Plane::Squares => number.sqrt().re,
-        }
-    }
-
-    /// Derivative of the growth rate with respect to the speed.
-    pub fn growth_slope(self, (number, slope): Sloped) -> f64 {
-        match self {
-            Plane::Squares if number != c64::ZERO => (slope / (2.0 * number.sqrt())).re,
-            // At λ² = 0 only its sign is finite.
-            Plane::Squares | Plane::Eigenvalues => slope.re,
-        }
-    }
-
-    /// Size of the number of an eigenvalue of a given size.
-    pub fn sized(self, size_rad_per_s: f64) -> f64 {
-        match self {
-            Plane::Eigenvalues => size_rad_per_s,
-            Plane::Squares => size_rad_per_s * size_rad_per_s,
-        }
-    }
-}
-
-/// Numbers of the low eigenvalues of a saw at a speed.
-#[derive(Debug, Clone)]
-pub struct Sample {
-    /// Rotation speed Ω, in rad/s.
-    pub speed_rad_per_s: f64,
-    /// Numbers by frequency. Conjugate eigenvalues lie symmetrically about the middle, conjugate squares side
-    /// by side.
-    pub eigenvalues: Vec<Sloped>,
-    /// For an undamped saw the Krein sign of each wave, and zero for every other mode.
-    pub signs: Vec<i8>,
-}
-
-impl Sample {
-    /// A sample from eigenvalues with Im λ ≥ 0.
-    pub fn new(speed_rad_per_s: f64, upper: impl Iterator<Item = Sloped>) -> Self {
-        let mut eigenvalues: Vec<Sloped> = upper
-            .flat_map(|(z, slope)| {
-                let conjugate = (z.im > 0.0).then(|| (z.conj(), slope.conj()));
-                [Some((z, slope)), conjugate].into_iter().flatten()
-            })
-            .collect();
-        let order = |x: &Sloped, y: &Sloped| {
-            let side = |z: c64| if z.im < 0.0 { -z.re } else { z.re };
-            let by_frequency = x.0.im.total_cmp(&y.0.im);
-            by_frequency.then(side(x.0).total_cmp(&side(y.0)))
-        };
-        eigenvalues.sort_by(order);
-        Sample {
-            speed_rad_per_s,
-            eigenvalues,
-            signs: Vec::new(),
-        }
-    }
-
-    /// A sample from the squares of the eigenvalues of an undamped saw with their Krein signs.
-    pub fn of_squares(speed_rad_per_s: f64, mut squares: Vec<(Sloped, i8)>) -> Self {
-        let order = |x: &(Sloped, i8), y: &(Sloped, i8)| {
-            let by_size = y.0.0.re.total_cmp(&x.0.0.re);
-            by_size.then(x.0.0.im.total_cmp(&y.0.0.im))
-        };
-        squares.sort_by(order);
-        Sample {
-            speed_rad_per_s,
-            eigenvalues: squares.iter().map(|(square, _)| *square).collect(),
-            signs: squares.iter().map(|(_, sign)| *sign).collect(),
-        }
-    }
-
-    fn middle(&self) -> usize {
-        self.eigenvalues.len() / 2
-    }
-}
 
 /// Indices of the eigenvalues of a group in the samples at both ends.
 pub type Places = [Vec<usize>; 2];

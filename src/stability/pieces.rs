@@ -10,7 +10,8 @@ use faer::c64;
 use rayon::prelude::*;
 
 use super::group::{Group, Sloped};
-use super::partition::{Places, Plane, Sample, partition};
+use super::partition::{Places, partition};
+use super::sample::{Plane, Sample};
 use crate::modes::{SpectrumError, Work, smallest};
 
 /// A group between two samples.
@@ -39,30 +40,6 @@ impl Piece {
     pub fn contains(&self, speed_rad_per_s: f64) -> bool {
         let [from, to] = self.ends.each_ref().map(|end| end.speed_rad_per_s);
         (from..=to).contains(&speed_rad_per_s)
-    }
-
-    /// Krein signs of the `count` waves of a group somewhere in the piece, by ascending λ². `None` if the ends do not
-    /// show them: two waves of opposite sign have crossed, or no end has as many waves.
-    pub fn signs(&self, grouped: &Grouped, count: usize) -> Option<Vec<i8>> {
-        if let Some(sign) = grouped.sign {
-            return Some(vec![sign; count]);
-        }
-        let at = |end: usize| {
-            let sample = &self.ends[end];
-            let mut places = grouped.places[end].clone();
-            places.retain(|&place| sample.signs[place] != 0);
-            let square = |place: usize| sample.eigenvalues[place].0.re;
-            places.sort_by(|&x, &y| square(x).total_cmp(&square(y)));
-            places
-                .into_iter()
-                .map(|place| sample.signs[place])
-                .collect::<Vec<i8>>()
-        };
-        let mut known = [at(0), at(1)]
-            .into_iter()
-            .filter(|signs| signs.len() == count);
-        let first = known.next()?;
-        known.all(|other| other == first).then_some(first)
     }
 }
 

@@ -19,7 +19,7 @@ use super::band::{Instability, InstabilityKind};
 use super::evaluator::SignatureEvaluator;
 use super::mode_counts::{Gap, ModeCounts, gaps};
 use super::pieces::Piece;
-use super::signature::Signature;
+use super::sample::Sample;
 use crate::model::scene::SpeedRange;
 use crate::modes::{AtSpeed, Cancellation, SpectrumError, Work};
 
@@ -43,16 +43,16 @@ const CLOSING: f64 = 0.1;
 const LONGEST: f64 = 0.5;
 
 impl Proof<'_> {
-    /// Unproven intervals between ascending signatures.
+    /// Unproven intervals between ascending samples.
     ///
     /// # Errors
     /// [`SpectrumError`] when an eigenproblem fails.
-    pub fn unproven(&self, signatures: &[Signature]) -> Result<Vec<SpeedRange>, SpectrumError> {
-        let Some(last) = signatures.last() else {
+    pub fn unproven(&self, samples: &[Sample]) -> Result<Vec<SpeedRange>, SpectrumError> {
+        let Some(last) = samples.last() else {
             return Ok(Vec::new());
         };
         let least = LEAST_WIDTH * last.speed_rad_per_s;
-        let ends: Vec<End> = signatures.iter().map(|s| self.end(s)).collect();
+        let ends: Vec<End> = samples.iter().map(|s| self.end(s)).collect();
         let is_uncritical = |a: &End, b: &End| !self.evaluator.spans_critical(a.speed, b.speed);
         let stretches: Vec<&[End]> = ends.chunk_by(is_uncritical).collect();
         let step = &Work::of("stretches of the proof", stretches.len());
@@ -73,22 +73,22 @@ impl Proof<'_> {
         Ok(open)
     }
 
-    fn end(&self, signature: &Signature) -> End {
+    fn end(&self, sample: &Sample) -> End {
         End {
-            speed: signature.speed_rad_per_s,
-            gaps: gaps(signature, self.evaluator.height_rad_per_s()),
+            speed: sample.speed_rad_per_s,
+            gaps: gaps(sample, self.evaluator.height_rad_per_s()),
             at: Arc::default(),
         }
     }
 
-    /// Signature for proposals, neither counted nor checked: from the pieces of the search if they show it.
-    fn guess_at(&self, speed: f64) -> Result<Signature, SpectrumError> {
+    /// Sample for proposals, neither counted nor checked: from the pieces of the search if they show it.
+    fn guess_at(&self, speed: f64) -> Result<Sample, SpectrumError> {
         let after = self
             .pieces
             .partition_point(|piece| piece.ends[1].speed_rad_per_s < speed);
         let piece = self.pieces.get(after).filter(|piece| piece.contains(speed));
-        match piece.and_then(|piece| Signature::within(piece, speed)) {
-            Some(signature) => Ok(signature),
+        match piece.and_then(|piece| piece.sample_at(speed)) {
+            Some(sample) => Ok(sample),
             None => self.evaluator.guess_at(speed),
         }
     }

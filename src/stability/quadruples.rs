@@ -3,8 +3,8 @@
 use faer::c64;
 
 use super::band::CurvePoint;
-use super::partition::{Plane, Sample};
 use super::pieces::{Grouped, Piece};
+use super::sample::{Plane, Sample};
 use crate::modes::nearest_pairs;
 
 /// Begin or end of an interval.

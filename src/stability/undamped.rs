@@ -8,8 +8,8 @@ use super::detail::Detail;
 use super::error::AnalysisError;
 use super::evaluator::{CRITICAL_GAP, CRITICAL_GROUP, SolvedSpeed};
 use super::options::AnalysisOptions;
+use super::sample::Sample;
 use super::search_result::{FoundBands, StabilityChart};
-use super::signature::Signature;
 use crate::model::evenly_spaced;
 use crate::model::plate::Plate;
 use crate::model::scene::SpeedRange;
@@ -60,7 +60,7 @@ pub(super) fn charted(
     samples.extend(branches::sample(model, &of_bands, &|_, _| ())?);
     samples.sort_by(|x, y| x.speed_rad_per_s.total_cmp(&y.speed_rad_per_s));
     let samples = branches::refined(model, samples, closeness)?;
-    let drawn: Vec<Signature> = samples.iter().map(signature_of).collect();
+    let drawn: Vec<Sample> = samples.iter().map(numbers).collect();
     let wrong = contradictions(&found.instabilities, &drawn, DRAWN_FLOOR);
     found.certificate.mismatches.extend(wrong);
     Ok(StabilityChart::new(model, samples, found))
@@ -91,9 +91,9 @@ fn speeds_beside(samples: &[SpeedSample], mut speeds: Vec<f64>) -> Vec<f64> {
     speeds
 }
 
-fn signature_of(sample: &SpeedSample) -> Signature {
+fn numbers(sample: &SpeedSample) -> Sample {
     let modes = sample.modes.iter().map(|named| &named.mode);
-    Signature::new(sample.speed_rad_per_s, modes)
+    Sample::of_modes(sample.speed_rad_per_s, modes)
 }
 
 /// Finds every band of an undamped blade in a range of speeds, with the results of its checks. The search

@@ -8,11 +8,10 @@ use super::divergence::{close_pairs, divergence};
 use super::evaluator::{SignatureEvaluator, SolvedSpeed};
 use super::flutter::{flutter, real_ends};
 use super::mode_counts::{MiscountedModes, ModeCounts};
-use super::partition::Plane;
 use super::pieces::{Piece, Search};
 use super::proof::Proof;
+use super::sample::{Plane, Sample};
 use super::search_result::{Found, FoundBands};
-use super::signature::Signature;
 use crate::model::scene::{Accuracy, SpeedRange};
 use crate::modes::{SpectralModel, SpectrumError};
 
@@ -112,10 +111,10 @@ fn searched(
         });
     };
     let pieces = searched_pieces(&evaluator, speeds)?;
-    let signatures = evaluator.signatures();
+    let samples = evaluator.samples();
     let mut stretches = flutter(&evaluator, &pieces)?;
     let real = real_ends(&stretches);
-    stretches.extend(divergence(model, &evaluator, &signatures, &real)?);
+    stretches.extend(divergence(model, &evaluator, &samples, &real)?);
     let mut found: Vec<Found> = stretches
         .par_iter()
         .map(|stretch| stretch.found(&evaluator, range))
@@ -138,7 +137,7 @@ fn searched(
         full: &full,
         pieces: &pieces,
         bands: &bands,
-        signatures: &signatures,
+        samples: &samples,
     };
     let mut certificate = checks.certificate(depth)?;
     if let Some(unproven) = &mut certificate.unproven_rad_per_s {
@@ -220,7 +219,7 @@ pub(super) struct Checks<'a> {
     pub full: &'a ModeCounts<'a>,
     pub pieces: &'a [Piece],
     pub bands: &'a [Instability],
-    pub signatures: &'a [Signature],
+    pub samples: &'a [Sample],
 }
 
 impl Checks<'_> {
@@ -229,7 +228,7 @@ impl Checks<'_> {
     /// # Errors
     /// [`SpectrumError`] when an eigenproblem fails.
     pub fn certificate(&self, depth: Depth) -> Result<Certificate, SpectrumError> {
-        let mut contradicted = contradictions(self.bands, self.signatures, GROWTH_FLOOR);
+        let mut contradicted = contradictions(self.bands, self.samples, GROWTH_FLOOR);
         let mut miscounts = self.at_anchors()?;
         let mut unproven = None;
         let gave_up = self.evaluator.is_exhausted();
@@ -249,7 +248,7 @@ impl Checks<'_> {
                 pieces: self.pieces,
                 bands: self.bands,
             };
-            unproven = Some(proof.unproven(self.signatures)?);
+            unproven = Some(proof.unproven(self.samples)?);
         }
         Ok(Certificate {
             mismatches: contradicted,
@@ -263,32 +262,32 @@ impl Checks<'_> {
 
     /// Contradictions of counts at some speeds of the search.
     fn at_anchors(&self) -> Result<Vec<MiscountedModes>, SpectrumError> {
-        let signatures = self.signatures;
+        let samples = self.samples;
         let count = if self.full.is_dense() {
             DENSE_ANCHORS
         } else {
             ANCHORS
         };
-        let (Some(first), Some(last)) = (signatures.first(), signatures.last()) else {
+        let (Some(first), Some(last)) = (samples.first(), samples.last()) else {
             return Ok(Vec::new());
         };
         let (from, to) = (first.speed_rad_per_s, last.speed_rad_per_s);
         let at = |k: usize| {
             let speed = from + (to - from) * (k as f64 + 1.0) / count as f64;
-            let place = signatures.partition_point(|s| s.speed_rad_per_s < speed);
-            place.min(signatures.len() - 1)
+            let place = samples.partition_point(|s| s.speed_rad_per_s < speed);
+            place.min(samples.len() - 1)
         };
         let mut places: Vec<usize> = (0..count).map(at).collect();
         places.dedup();
-        let anchors: Vec<&Signature> = places.into_iter().map(|k| &signatures[k]).collect();
+        let anchors: Vec<&Sample> = places.into_iter().map(|k| &samples[k]).collect();
         self.full
             .miscounts(&anchors, self.evaluator.height_rad_per_s())
     }
 
     /// Speeds on both sides and at the peak of every flutter band, and random speeds.
     fn chosen_speeds(&self) -> Vec<f64> {
-        let signatures = self.signatures;
-        let (Some(first), Some(last)) = (signatures.first(), signatures.last()) else {
+        let samples = self.samples;
+        let (Some(first), Some(last)) = (samples.first(), samples.last()) else {
             return Vec::new();
         };
         let (from, to) = (first.speed_rad_per_s, last.speed_rad_per_s);
@@ -330,15 +329,15 @@ pub(super) const GROWTH_FLOOR: f64 = 1e-5;
 /// Contradictions between bands and modes at some speeds.
 pub(super) fn contradictions(
     bands: &[Instability],
-    signatures: &[Signature],
+    samples: &[Sample],
     floor: f64,
 ) -> Vec<ContradictedBands> {
-    let of = |signature: &Signature| {
-        let highest = signature.highest_rad_per_s();
-        let floor = floor * (signature.speed_rad_per_s + highest);
-        mismatches(bands, signature, floor)
+    let of = |sample: &Sample| {
+        let highest = sample.highest_rad_per_s();
+        let floor = floor * (sample.speed_rad_per_s + highest);
+        mismatches(bands, sample, floor)
     };
-    signatures.iter().flat_map(of).collect()
+    samples.iter().flat_map(of).collect()
 }
 
 #[cfg(test)]

@@ -42,19 +42,19 @@ static SOUND: LazyLock<Sound> = LazyLock::new(|| {
     }
 });
 
-/// Certificate of a list of bands, which may be wrong, with signatures that a function may make wrong.
-fn certified(sound: &Sound, bands: &[Instability], change: impl Fn(&mut Signature)) -> Certificate {
+/// Certificate of a list of bands, which may be wrong, with samples that a function may make wrong.
+fn certified(sound: &Sound, bands: &[Instability], change: impl Fn(&mut Sample)) -> Certificate {
     let evaluator = SignatureEvaluator::new(&sound.model);
     let pieces = searched_pieces(&evaluator, &sound.speeds).unwrap();
-    let mut signatures = evaluator.signatures();
-    signatures.iter_mut().for_each(change);
+    let mut samples = evaluator.samples();
+    samples.iter_mut().for_each(change);
     let full = ModeCounts::new(&sound.model).unwrap();
     let checks = Checks {
         evaluator: &evaluator,
         full: &full,
         pieces: &pieces,
         bands,
-        signatures: &signatures,
+        samples: &samples,
     };
     checks.certificate(Depth::Proof).unwrap()
 }
@@ -117,10 +117,10 @@ fn proven_speeds_have_no_unstable_mode_besides_the_bands() {
             continue;
         }
         let modes = sound.model.full_modes(speed).unwrap();
-        let signature = Signature::new(speed, modes.iter());
+        let sample = Sample::of_modes(speed, modes.iter());
         let covers = |b: &&Instability| b.range().contains(speed);
         let listed = sound.bands.iter().filter(covers).count();
-        let unstable = signature.quadruples.len() + signature.real.len();
+        let unstable = sample.quadruples().count() + sample.divergences().count();
         assert!(
             unstable <= listed,
             "{} rpm: {unstable} {listed}",
@@ -160,13 +160,10 @@ fn a_missing_mode_is_found_and_the_search_repeated_without_it() {
 #[test]
 fn two_exchanged_signs_are_found() {
     let sound = &*SOUND;
-    let certificate = certified(sound, &sound.bands, |signature| {
-        let opposite =
-            |pair: &[crate::stability::signature::SignedMode]| pair[0].sign != pair[1].sign;
-        if let Some(place) = signature.waves.windows(2).position(opposite) {
-            let sign = signature.waves[place].sign;
-            signature.waves[place].sign = signature.waves[place + 1].sign;
-            signature.waves[place + 1].sign = sign;
+    let certificate = certified(sound, &sound.bands, |sample| {
+        let opposite = |pair: &[i8]| pair[0] * pair[1] < 0;
+        if let Some(place) = sample.signs.windows(2).position(opposite) {
+            sample.signs.swap(place, place + 1);
         }
     });
     assert!(!certificate.miscounts.is_empty());

@@ -243,8 +243,8 @@ fn linked(tips: Vec<Tip>, found: Vec<Sloped>, speed_rad_per_s: f64) -> (Vec<Tip>
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::stability::partition::{Plane, Sample};
     use crate::stability::pieces::Search;
+    use crate::stability::sample::{Plane, Sample};
 
     /// Curves of eigenvalues given in closed form over 0 to 10 rad/s, and the number of speeds computed.
     fn followed(eigenvalues: &(dyn Fn(f64) -> Vec<Sloped> + Sync)) -> (Vec<Curve>, usize) {

@@ -8,8 +8,8 @@ use crate::modes::waves::WaveModel;
 use crate::modes::{SpectralModel, SpectrumError, smallest};
 use crate::stability::group::Sloped;
 use crate::stability::growth_curve::Numbers;
-use crate::stability::partition::{BESIDES, Plane, Sample};
 use crate::stability::pieces::Piece;
+use crate::stability::sample::{BESIDES, Plane, Sample};
 
 /// Growth below this share of the highest accurate frequency is rounding.
 const NOISE: f64 = 1e-10;
