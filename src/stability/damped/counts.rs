@@ -8,8 +8,8 @@ use super::spectrum::{Solver, Spectrum};
 use crate::model::scene::SpeedRange;
 use crate::modes::{FullModel, SpectralModel, SpectrumError};
 use crate::stability::band::Instability;
-use crate::stability::certification::drawn_share;
 use crate::stability::mode_counts::MiscountedModes;
+use crate::stability::undamped::drawn_share;
 
 /// Number of bands, from the lowest, with counts on both sides of their onsets; each count takes about forty
 /// determinants.

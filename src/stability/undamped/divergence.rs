@@ -2,20 +2,20 @@
 
 use faer::c64;
 
-use super::band::{CurvePoint, Instability, InstabilityKind};
-use super::evaluator::{CRITICAL_GAP, CRITICAL_GROUP, SignatureEvaluator};
+use super::checked_modes::{CRITICAL_GAP, CRITICAL_GROUP, CheckedModes};
 use super::flutter::VICINITY;
 use super::growing_stretch::{End, GrowingStretch};
-use super::sample::Sample;
-use super::search_result::Found;
 use crate::model::scene::SpeedRange;
 use crate::modes::{SpectralModel, SpectrumError, smallest};
+use crate::stability::band::{CurvePoint, Instability, InstabilityKind};
+use crate::stability::sample::Sample;
+use crate::stability::search_result::Found;
 
 /// Intervals of divergence, from samples in ascending order. They begin and end at critical speeds or at
 /// `coalescences`, where two real λ continue as flutter.
-pub(super) fn divergence(
+pub fn divergence(
     model: &SpectralModel,
-    evaluator: &SignatureEvaluator<'_>,
+    evaluator: &CheckedModes<'_>,
     samples: &[Sample],
     coalescences: &[CurvePoint],
 ) -> Result<Vec<GrowingStretch>, SpectrumError> {
@@ -90,9 +90,9 @@ fn unseen(samples: &[Sample], critical: &[f64], coalescences: &[CurvePoint]) -> 
 
 /// Bands of divergence between two critical speeds that the search passes in one step. An odd number of negative
 /// eigenvalues of K(Ω) implies a real λ > 0.
-pub(super) fn close_pairs(
+pub fn close_pairs(
     model: &SpectralModel,
-    evaluator: &SignatureEvaluator<'_>,
+    evaluator: &CheckedModes<'_>,
     speeds: &[f64],
     range: SpeedRange,
 ) -> Result<Vec<Found>, SpectrumError> {
@@ -111,7 +111,7 @@ pub(super) fn close_pairs(
 
 /// Band between two close critical speeds, clipped to the limits. Its growth is nearly constant.
 fn close_pair(
-    evaluator: &SignatureEvaluator<'_>,
+    evaluator: &CheckedModes<'_>,
     critical: &[f64],
     limits: SpeedRange,
 ) -> Result<Instability, SpectrumError> {

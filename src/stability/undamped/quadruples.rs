@@ -2,10 +2,10 @@
 
 use faer::c64;
 
-use super::band::CurvePoint;
-use super::pieces::{Grouped, Piece};
-use super::sample::{Plane, Sample};
 use crate::modes::nearest_pairs;
+use crate::stability::band::CurvePoint;
+use crate::stability::pieces::{Grouped, Piece};
+use crate::stability::sample::{Plane, Sample};
 
 /// Begin or end of an interval.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -2,8 +2,8 @@
 
 use faer::c64;
 
-use super::pieces::{Grouped, Piece};
-use super::sample::Sample;
+use crate::stability::pieces::{Grouped, Piece};
+use crate::stability::sample::Sample;
 
 impl Piece {
     /// Sample at a speed of the piece, with one wave of unlimited frequency above all others, because those beyond the height of

@@ -7,16 +7,16 @@ use rayon::prelude::*;
 
 use faer::c64;
 
-use super::certificate::Certificate;
-use super::group::Sloped;
-use super::growth_curve::Numbers;
-use super::sample::{BESIDES, Plane, Sample};
 use crate::model::tuning::Tuned;
 use crate::modes::{DoubleEigenvalue, Mode, SpectralModel, SpectrumError, krein_index, smallest};
+use crate::stability::certificate::Certificate;
+use crate::stability::group::Sloped;
+use crate::stability::growth_curve::Numbers;
+use crate::stability::sample::{BESIDES, Plane, Sample};
 
 /// Relative distance of the search from critical speeds: λ² passes through zero there and is accurate only to
 /// 1e-15 of the stiffness.
-pub const CRITICAL_GAP: Tuned = Tuned::new("stability/evaluator::CRITICAL_GAP", 5e-6);
+pub const CRITICAL_GAP: Tuned = Tuned::new("stability/undamped/checked_modes::CRITICAL_GAP", 5e-6);
 /// Critical speeds at a smaller relative distance are passed in one step of the search. The divergence
 /// between them grows by less than 0.01 1/s; the inertia of the stiffness shows that it exists.
 pub const CRITICAL_GROUP: f64 = 2e-5;
@@ -56,7 +56,7 @@ impl SolvedSpeed {
 }
 
 /// Squares of the growing eigenvalues.
-impl Numbers for SignatureEvaluator<'_> {
+impl Numbers for CheckedModes<'_> {
     fn plane(&self) -> Plane {
         Plane::Squares
     }
@@ -82,7 +82,7 @@ impl Numbers for SignatureEvaluator<'_> {
 }
 
 /// Computes modes, checks the Krein index of each speed, and counts the speeds.
-pub struct SignatureEvaluator<'a> {
+pub struct CheckedModes<'a> {
     model: &'a SpectralModel,
     tally: Tally,
     /// Modes at the speeds of the search.
@@ -91,10 +91,10 @@ pub struct SignatureEvaluator<'a> {
     others: Mutex<Vec<SolvedSpeed>>,
 }
 
-impl<'a> SignatureEvaluator<'a> {
+impl<'a> CheckedModes<'a> {
     /// An evaluator for an undamped blade.
     pub fn new(model: &'a SpectralModel) -> Self {
-        SignatureEvaluator {
+        CheckedModes {
             model,
             tally: Tally::default(),
             seen: Mutex::default(),
@@ -131,7 +131,7 @@ impl<'a> SignatureEvaluator<'a> {
         Ok(self.checked(speed_rad_per_s)?.sample())
     }
 
-    /// Modes at a speed, with the checks of [`SignatureEvaluator::at`].
+    /// Modes at a speed, with the checks of [`CheckedModes::at`].
     fn checked(&self, speed_rad_per_s: f64) -> Result<SolvedSpeed, SpectrumError> {
         self.tally.checked.fetch_add(1, Ordering::Relaxed);
         let solved = self.solved(speed_rad_per_s)?;

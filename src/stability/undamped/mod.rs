@@ -1,20 +1,38 @@
 //! Bands of an undamped blade over a range of speeds, and the speeds of its chart.
+//!
+//! Modes have Krein signs, and λ² is followed over the speed. Its quadruples are bands of flutter ([`flutter`]), its real numbers above
+//! zero are bands of divergence ([`divergence`]), each an interval with two ends ([`growing_stretch`]). The bands are checked and proven
+//! by counts ([`certification`], [`proof`]).
+
+mod certification;
+mod checked_modes;
+mod divergence;
+mod flutter;
+mod growing_stretch;
+mod interpolated;
+mod loci;
+mod proof;
+mod quadruples;
 
 use rayon::prelude::*;
 
-use super::band::{Instability, InstabilityKind};
-use super::certification::{Depth, Searched, bands, contradictions};
-use super::detail::Detail;
-use super::error::AnalysisError;
-use super::evaluator::{CRITICAL_GAP, CRITICAL_GROUP, SolvedSpeed};
-use super::options::AnalysisOptions;
-use super::sample::Sample;
-use super::search_result::{FoundBands, StabilityChart};
+pub(crate) use self::certification::Depth;
+pub(super) use self::certification::{GROWTH_FLOOR, contradictions, drawn_share};
+pub(super) use self::loci::RootLoci;
+
+use self::certification::{Searched, bands};
+use self::checked_modes::{CRITICAL_GAP, CRITICAL_GROUP, SolvedSpeed};
 use crate::model::evenly_spaced;
 use crate::model::plate::Plate;
 use crate::model::scene::SpeedRange;
 use crate::modes::branches::{self, Closeness, SpeedSample};
 use crate::modes::{NamedCriticalSpeed, SpectralModel, SpectrumError, clear_range, searched_range};
+use crate::stability::band::{Instability, InstabilityKind};
+use crate::stability::detail::Detail;
+use crate::stability::error::AnalysisError;
+use crate::stability::options::AnalysisOptions;
+use crate::stability::sample::Sample;
+use crate::stability::search_result::{FoundBands, StabilityChart};
 
 /// Number of even speeds at the start of the search for bands; the bands do not depend on it.
 pub(super) const SEARCH_SPEEDS: usize = 9;

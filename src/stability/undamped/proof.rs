@@ -15,21 +15,21 @@ use std::sync::{Arc, OnceLock};
 
 use rayon::prelude::*;
 
-use super::band::{Instability, InstabilityKind};
-use super::evaluator::SignatureEvaluator;
-use super::mode_counts::{Gap, ModeCounts, gaps};
-use super::pieces::Piece;
-use super::sample::Sample;
+use super::checked_modes::CheckedModes;
 use crate::model::scene::SpeedRange;
 use crate::modes::{AtSpeed, Cancellation, SpectrumError, Work};
+use crate::stability::band::{Instability, InstabilityKind};
+use crate::stability::mode_counts::{Gap, ModeCounts, gaps};
+use crate::stability::pieces::Piece;
+use crate::stability::sample::Sample;
 
 /// Intervals narrower than this share of the highest speed are not halved further.
 const LEAST_WIDTH: f64 = 1e-4;
 
 /// A list of bands with the models for its proof.
-pub(super) struct Proof<'a> {
+pub struct Proof<'a> {
     pub full: &'a ModeCounts<'a>,
-    pub evaluator: &'a SignatureEvaluator<'a>,
+    pub evaluator: &'a CheckedModes<'a>,
     /// Pieces of the search.
     pub pieces: &'a [Piece],
     pub bands: &'a [Instability],

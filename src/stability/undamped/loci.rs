@@ -8,11 +8,11 @@
 
 use faer::c64;
 
-use super::band::Instability;
-use super::interpolation::Cubic;
 use crate::model::scene::SpeedRange;
 use crate::modes::branches::{Branch, Campbell};
 use crate::modes::{Mode, ModeKind, NamedMode, smallest};
+use crate::stability::band::Instability;
+use crate::stability::interpolation::Cubic;
 
 /// Paths of two eigenvalues over speed.
 #[derive(Debug, Clone, PartialEq)]

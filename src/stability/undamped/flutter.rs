@@ -3,22 +3,22 @@
 use faer::c64;
 use rayon::prelude::*;
 
-use super::band::{CurvePoint, InstabilityKind};
-use super::evaluator::SignatureEvaluator;
-use super::group::Sloped;
+use super::checked_modes::CheckedModes;
 use super::growing_stretch::{End, GrowingStretch};
-use super::growth_curve::Numbers;
-use super::pieces::Piece;
 use super::quadruples::{Bound, Stretch, stretches};
-use super::sample::Plane;
 use crate::modes::{DoubleEigenvalue, SpectrumError};
+use crate::stability::band::{CurvePoint, InstabilityKind};
+use crate::stability::group::Sloped;
+use crate::stability::growth_curve::Numbers;
+use crate::stability::pieces::Piece;
+use crate::stability::sample::Plane;
 
 /// Intervals of quadruples in the pieces of a search, by their begin.
 ///
 /// # Errors
 /// [`SpectrumError`] when an eigenproblem fails.
-pub(super) fn flutter(
-    evaluator: &SignatureEvaluator<'_>,
+pub fn flutter(
+    evaluator: &CheckedModes<'_>,
     pieces: &[Piece],
 ) -> Result<Vec<GrowingStretch>, SpectrumError> {
     let confirmed: Vec<Option<GrowingStretch>> = stretches(pieces)
@@ -31,7 +31,7 @@ pub(super) fn flutter(
 }
 
 /// Ends of flutter that are coalescences of two real λ.
-pub(super) fn real_ends(flutter: &[GrowingStretch]) -> Vec<CurvePoint> {
+pub fn real_ends(flutter: &[GrowingStretch]) -> Vec<CurvePoint> {
     let ends = flutter.iter().flat_map(|stretch| stretch.ends);
     let real = ends.filter_map(|end| match end {
         End::Coalescence(point) if point.number.re > 0.0 => Some(point),
@@ -42,7 +42,7 @@ pub(super) fn real_ends(flutter: &[GrowingStretch]) -> Vec<CurvePoint> {
 
 /// The quadruple of an interval with both ends; `None` if no eigenproblem confirms it.
 fn confirmed(
-    evaluator: &SignatureEvaluator<'_>,
+    evaluator: &CheckedModes<'_>,
     stretch: &Stretch<'_>,
 ) -> Result<Option<GrowingStretch>, SpectrumError> {
     let mut points = stretch.points.clone();
@@ -87,11 +87,11 @@ fn is_expected((square, _): &Sloped, expected: c64) -> bool {
 /// quadruple.
 const SAME_END: f64 = 0.1;
 /// Allowed shift of an edge in the models of the search, relative to the speed.
-pub(super) const VICINITY: f64 = 3e-5;
+pub const VICINITY: f64 = 3e-5;
 
 /// End of an interval whose quadruple is known at an inner speed.
 fn end(
-    evaluator: &SignatureEvaluator<'_>,
+    evaluator: &CheckedModes<'_>,
     stretch: &Stretch<'_>,
     bound: Bound,
     point: CurvePoint,

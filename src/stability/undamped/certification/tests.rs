@@ -44,7 +44,7 @@ static SOUND: LazyLock<Sound> = LazyLock::new(|| {
 
 /// Certificate of a list of bands, which may be wrong, with samples that a function may make wrong.
 fn certified(sound: &Sound, bands: &[Instability], change: impl Fn(&mut Sample)) -> Certificate {
-    let evaluator = SignatureEvaluator::new(&sound.model);
+    let evaluator = CheckedModes::new(&sound.model);
     let pieces = searched_pieces(&evaluator, &sound.speeds).unwrap();
     let mut samples = evaluator.samples();
     samples.iter_mut().for_each(change);

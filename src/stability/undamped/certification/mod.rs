@@ -2,18 +2,18 @@
 
 use rayon::prelude::*;
 
-use super::band::{Instability, InstabilityKind};
-use super::certificate::{Certificate, ContradictedBands, mismatches};
+use super::checked_modes::{CheckedModes, SolvedSpeed};
 use super::divergence::{close_pairs, divergence};
-use super::evaluator::{SignatureEvaluator, SolvedSpeed};
 use super::flutter::{flutter, real_ends};
-use super::mode_counts::{MiscountedModes, ModeCounts};
-use super::pieces::{Piece, Search};
 use super::proof::Proof;
-use super::sample::{Plane, Sample};
-use super::search_result::{Found, FoundBands};
 use crate::model::scene::{Accuracy, SpeedRange};
 use crate::modes::{SpectralModel, SpectrumError};
+use crate::stability::band::{Instability, InstabilityKind};
+use crate::stability::certificate::{Certificate, ContradictedBands, mismatches};
+use crate::stability::mode_counts::{MiscountedModes, ModeCounts};
+use crate::stability::pieces::{Piece, Search};
+use crate::stability::sample::{Plane, Sample};
+use crate::stability::search_result::{Found, FoundBands};
 
 /// Depth of the checks of a list of bands.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -27,7 +27,7 @@ pub(crate) enum Depth {
 
 impl Depth {
     /// Depth for a chart of a named accuracy: `draft` does without the proof.
-    pub(super) fn of(accuracy: Accuracy) -> Self {
+    pub fn of(accuracy: Accuracy) -> Self {
         match accuracy {
             Accuracy::Draft => Depth::Counts,
             Accuracy::Design | Accuracy::Reference => Depth::Proof,
@@ -59,7 +59,7 @@ const NEXT_TO_CRITICAL: f64 = 1e-4;
 /// Finds every band within a range by a search between the first and the last of `speeds`, which should cover
 /// the range from the first critical speed on. Searches again with more waves if counts contradict the
 /// modes.
-pub(super) fn bands(
+pub fn bands(
     model: &SpectralModel,
     range: SpeedRange,
     speeds: &[f64],
@@ -79,7 +79,7 @@ pub(super) fn bands(
 }
 
 /// Result of a search.
-pub(super) struct Searched {
+pub struct Searched {
     /// Bands and certificate.
     pub found: FoundBands,
     /// Modes of the model at the speeds of the search; empty if more waves were needed.
@@ -93,7 +93,7 @@ fn searched(
     speeds: &[f64],
     depth: Depth,
 ) -> Result<Searched, SpectrumError> {
-    let evaluator = SignatureEvaluator::new(model);
+    let evaluator = CheckedModes::new(model);
     let Some(full) = ModeCounts::new(model) else {
         evaluator.at_all(speeds)?;
         // A free blade has no counts. Its waves are uncoupled, so they cross and never coalesce.
@@ -155,7 +155,7 @@ fn searched(
 
 /// Pieces of a search between the first and the last of some speeds.
 fn searched_pieces(
-    evaluator: &SignatureEvaluator<'_>,
+    evaluator: &CheckedModes<'_>,
     speeds: &[f64],
 ) -> Result<Vec<Piece>, SpectrumError> {
     let top_rad_per_s = evaluator.height_rad_per_s();
@@ -214,8 +214,8 @@ fn clipped(stretches: &[SpeedRange], range: SpeedRange) -> Vec<SpeedRange> {
 }
 
 /// A list of bands with the data for the checks of it.
-pub(super) struct Checks<'a> {
-    pub evaluator: &'a SignatureEvaluator<'a>,
+pub struct Checks<'a> {
+    pub evaluator: &'a CheckedModes<'a>,
     pub full: &'a ModeCounts<'a>,
     pub pieces: &'a [Piece],
     pub bands: &'a [Instability],
@@ -315,7 +315,7 @@ impl Checks<'_> {
 
 /// Number k of a pseudo-random sequence between 0 and 1 that is the same on every machine (Steele, Lea and
 /// Flood, OOPSLA 2014).
-pub(super) fn drawn_share(k: u64) -> f64 {
+pub fn drawn_share(k: u64) -> f64 {
     let mut z = (k + 1).wrapping_mul(0x9e37_79b9_7f4a_7c15);
     z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
     z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
@@ -324,10 +324,10 @@ pub(super) fn drawn_share(k: u64) -> f64 {
 
 /// Share of |ω| + Ω below which growth is not compared with the bands: next to a coalescence eigenvalues are
 /// accurate to √ε of the largest frequency of the reduced model.
-pub(super) const GROWTH_FLOOR: f64 = 1e-5;
+pub const GROWTH_FLOOR: f64 = 1e-5;
 
 /// Contradictions between bands and modes at some speeds.
-pub(super) fn contradictions(
+pub fn contradictions(
     bands: &[Instability],
     samples: &[Sample],
     floor: f64,

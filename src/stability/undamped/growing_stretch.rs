@@ -2,12 +2,12 @@
 
 use faer::c64;
 
-use super::band::{CurvePoint, Instability, InstabilityKind};
-use super::growth_curve::{GrowthCurve, Numbers, between};
-use super::sample::Plane;
-use super::search_result::Found;
 use crate::model::scene::SpeedRange;
 use crate::modes::{SpectrumError, smallest};
+use crate::stability::band::{CurvePoint, Instability, InstabilityKind};
+use crate::stability::growth_curve::{GrowthCurve, Numbers, between};
+use crate::stability::sample::Plane;
+use crate::stability::search_result::Found;
 
 /// Begin or end of an interval.
 #[derive(Debug, Clone, Copy, PartialEq)]
