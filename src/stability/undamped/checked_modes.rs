@@ -92,7 +92,7 @@ pub struct CheckedModes<'a> {
 }
 
 impl<'a> CheckedModes<'a> {
-    /// An evaluator for an undamped blade.
+    /// An checked for an undamped blade.
     pub fn new(model: &'a SpectralModel) -> Self {
         CheckedModes {
             model,

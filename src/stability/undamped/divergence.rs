@@ -15,14 +15,14 @@ use crate::stability::search_result::Found;
 /// `coalescences`, where two real λ continue as flutter.
 pub fn divergence(
     model: &SpectralModel,
-    evaluator: &CheckedModes<'_>,
+    checked: &CheckedModes<'_>,
     samples: &[Sample],
     coalescences: &[CurvePoint],
 ) -> Result<Vec<GrowingStretch>, SpectrumError> {
     let critical: Vec<f64> = model.critical.iter().map(|c| c.speed_rad_per_s).collect();
     let mut samples = samples.to_vec();
     for speed in unseen(&samples, &critical, coalescences) {
-        samples.push(evaluator.at(speed)?);
+        samples.push(checked.at(speed)?);
     }
     samples.sort_by(|x, y| x.speed_rad_per_s.total_cmp(&y.speed_rad_per_s));
     let mut stretches = Vec::new();
@@ -92,7 +92,7 @@ fn unseen(samples: &[Sample], critical: &[f64], coalescences: &[CurvePoint]) -> 
 /// eigenvalues of K(Ω) implies a real λ > 0.
 pub fn close_pairs(
     model: &SpectralModel,
-    evaluator: &CheckedModes<'_>,
+    checked: &CheckedModes<'_>,
     speeds: &[f64],
     range: SpeedRange,
 ) -> Result<Vec<Found>, SpectrumError> {
@@ -105,13 +105,13 @@ pub fn close_pairs(
         below % 2 == 0 && first <= pair[0] && pair[1] <= last && close(pair)
     });
     pairs
-        .map(|(_, pair)| Found::new(range, |limits| close_pair(evaluator, pair, limits)))
+        .map(|(_, pair)| Found::new(range, |limits| close_pair(checked, pair, limits)))
         .collect()
 }
 
 /// Band between two close critical speeds, clipped to the limits. Its growth is nearly constant.
 fn close_pair(
-    evaluator: &CheckedModes<'_>,
+    checked: &CheckedModes<'_>,
     critical: &[f64],
     limits: SpeedRange,
 ) -> Result<Instability, SpectrumError> {
@@ -124,7 +124,7 @@ fn close_pair(
         to_rad_per_s: to,
         closed: true,
         peak_rad_per_s: peak,
-        peak_growth_per_s: evaluator.divergence(peak)?,
+        peak_growth_per_s: checked.divergence(peak)?,
         frequency_rad_per_s: 0.0,
         curve: Vec::new(),
     })

@@ -18,12 +18,12 @@ use crate::stability::sample::Plane;
 /// # Errors
 /// [`SpectrumError`] when an eigenproblem fails.
 pub fn flutter(
-    evaluator: &CheckedModes<'_>,
+    checked: &CheckedModes<'_>,
     pieces: &[Piece],
 ) -> Result<Vec<GrowingStretch>, SpectrumError> {
     let confirmed: Vec<Option<GrowingStretch>> = stretches(pieces)
         .par_iter()
-        .map(|stretch| confirmed(evaluator, stretch))
+        .map(|stretch| confirmed(checked, stretch))
         .collect::<Result<_, _>>()?;
     let mut found: Vec<GrowingStretch> = confirmed.into_iter().flatten().collect();
     found.sort_by(|x, y| x.ends[0].speed().total_cmp(&y.ends[0].speed()));
@@ -42,7 +42,7 @@ pub fn real_ends(flutter: &[GrowingStretch]) -> Vec<CurvePoint> {
 
 /// The quadruple of an interval with both ends; `None` if no eigenproblem confirms it.
 fn confirmed(
-    evaluator: &CheckedModes<'_>,
+    checked: &CheckedModes<'_>,
     stretch: &Stretch<'_>,
 ) -> Result<Option<GrowingStretch>, SpectrumError> {
     let mut points = stretch.points.clone();
@@ -51,7 +51,7 @@ fn confirmed(
         let Some(expected) = stretch.square(speed_rad_per_s) else {
             return Ok(None);
         };
-        let found = evaluator.nearest(speed_rad_per_s, expected)?;
+        let found = checked.nearest(speed_rad_per_s, expected)?;
         points.extend(
             found
                 .filter(|found| is_expected(found, expected))
@@ -66,7 +66,7 @@ fn confirmed(
         return Ok(None);
     };
     let ends = [(stretch.begin, first), (stretch.end, last)]
-        .map(|(bound, inside)| end(evaluator, stretch, bound, inside));
+        .map(|(bound, inside)| end(checked, stretch, bound, inside));
     Ok(Some(GrowingStretch {
         kind: InstabilityKind::Flutter,
         ends,
@@ -90,12 +90,7 @@ const SAME_END: f64 = 0.1;
 pub const VICINITY: f64 = 3e-5;
 
 /// End of an interval whose quadruple is known at an inner speed.
-fn end(
-    evaluator: &CheckedModes<'_>,
-    stretch: &Stretch<'_>,
-    bound: Bound,
-    point: CurvePoint,
-) -> End {
+fn end(checked: &CheckedModes<'_>, stretch: &Stretch<'_>, bound: Bound, point: CurvePoint) -> End {
     let inside = point.speed_rad_per_s;
     let (expected, outside) = match bound {
         Bound::Coalescence {
@@ -120,7 +115,7 @@ fn end(
         off <= SAME_END * way + margin && before.max(beyond) <= margin && is_outwards
     };
     let unknown = c64::from(f64::NAN);
-    let found = evaluator.double_eigenvalue(expected, c64::new(square, 0.0).sqrt());
+    let found = checked.double_eigenvalue(expected, c64::new(square, 0.0).sqrt());
     End::Coalescence(match found.filter(is_same) {
         Some(found) => CurvePoint {
             speed_rad_per_s: found.speed_rad_per_s,

@@ -29,7 +29,7 @@ const LEAST_WIDTH: f64 = 1e-4;
 /// A list of bands with the models for its proof.
 pub struct Proof<'a> {
     pub full: &'a ModeCounts<'a>,
-    pub evaluator: &'a CheckedModes<'a>,
+    pub checked: &'a CheckedModes<'a>,
     /// Pieces of the search.
     pub pieces: &'a [Piece],
     pub bands: &'a [Instability],
@@ -53,7 +53,7 @@ impl Proof<'_> {
         };
         let least = LEAST_WIDTH * last.speed_rad_per_s;
         let ends: Vec<End> = samples.iter().map(|s| self.end(s)).collect();
-        let is_uncritical = |a: &End, b: &End| !self.evaluator.spans_critical(a.speed, b.speed);
+        let is_uncritical = |a: &End, b: &End| !self.checked.spans_critical(a.speed, b.speed);
         let stretches: Vec<&[End]> = ends.chunk_by(is_uncritical).collect();
         let step = &Work::of("stretches of the proof", stretches.len());
         let within: Vec<Result<Vec<SpeedRange>, SpectrumError>> = stretches
@@ -76,7 +76,7 @@ impl Proof<'_> {
     fn end(&self, sample: &Sample) -> End {
         End {
             speed: sample.speed_rad_per_s,
-            gaps: gaps(sample, self.evaluator.height_rad_per_s()),
+            gaps: gaps(sample, self.checked.height_rad_per_s()),
             at: Arc::default(),
         }
     }
@@ -89,7 +89,7 @@ impl Proof<'_> {
         let piece = self.pieces.get(after).filter(|piece| piece.contains(speed));
         match piece.and_then(|piece| piece.sample_at(speed)) {
             Some(sample) => Ok(sample),
-            None => self.evaluator.guess_at(speed),
+            None => self.checked.guess_at(speed),
         }
     }
 
@@ -131,7 +131,7 @@ impl Proof<'_> {
             return halves(&ends[..=place], &ends[place..]);
         }
         let is_open = self.full.has_free_motions() || self.full.is_dense();
-        if is_open || b.speed - a.speed <= least || self.evaluator.is_exhausted() {
+        if is_open || b.speed - a.speed <= least || self.checked.is_exhausted() {
             step.advance();
             return Ok(vec![SpeedRange::new(a.speed, b.speed)]);
         }

@@ -93,13 +93,13 @@ fn searched(
     speeds: &[f64],
     depth: Depth,
 ) -> Result<Searched, SpectrumError> {
-    let evaluator = CheckedModes::new(model);
+    let checked = CheckedModes::new(model);
     let Some(full) = ModeCounts::new(model) else {
-        evaluator.at_all(speeds)?;
+        checked.at_all(speeds)?;
         // A free blade has no counts. Its waves are uncoupled, so they cross and never coalesce.
         let certificate = Certificate {
             unproven_rad_per_s: Some(Vec::new()),
-            ..evaluator.certificate()
+            ..checked.certificate()
         };
         let found = FoundBands {
             instabilities: Vec::new(),
@@ -107,19 +107,19 @@ fn searched(
         };
         return Ok(Searched {
             found,
-            solved: evaluator.into_solved(),
+            solved: checked.into_solved(),
         });
     };
-    let pieces = searched_pieces(&evaluator, speeds)?;
-    let samples = evaluator.samples();
-    let mut stretches = flutter(&evaluator, &pieces)?;
+    let pieces = searched_pieces(&checked, speeds)?;
+    let samples = checked.samples();
+    let mut stretches = flutter(&checked, &pieces)?;
     let real = real_ends(&stretches);
-    stretches.extend(divergence(model, &evaluator, &samples, &real)?);
+    stretches.extend(divergence(model, &checked, &samples, &real)?);
     let mut found: Vec<Found> = stretches
         .par_iter()
-        .map(|stretch| stretch.found(&evaluator, range))
+        .map(|stretch| stretch.found(&checked, range))
         .collect::<Result<_, _>>()?;
-    found.extend(close_pairs(model, &evaluator, speeds, range)?);
+    found.extend(close_pairs(model, &checked, speeds, range)?);
     let (mut bands, mut within) = (Vec::new(), Vec::new());
     for Found {
         whole,
@@ -133,7 +133,7 @@ fn searched(
     bands.sort_by(by_onset);
     within.sort_by(by_onset);
     let checks = Checks {
-        evaluator: &evaluator,
+        checked: &checked,
         full: &full,
         pieces: &pieces,
         bands: &bands,
@@ -149,16 +149,16 @@ fn searched(
             instabilities: within,
             certificate,
         },
-        solved: evaluator.into_solved(),
+        solved: checked.into_solved(),
     })
 }
 
 /// Pieces of a search between the first and the last of some speeds.
 fn searched_pieces(
-    evaluator: &CheckedModes<'_>,
+    checked: &CheckedModes<'_>,
     speeds: &[f64],
 ) -> Result<Vec<Piece>, SpectrumError> {
-    let top_rad_per_s = evaluator.height_rad_per_s();
+    let top_rad_per_s = checked.height_rad_per_s();
     let last = speeds.last().copied().unwrap_or(0.0);
     let search = Search {
         plane: Plane::Squares,
@@ -166,7 +166,7 @@ fn searched_pieces(
         tolerance: SQUARE_TOLERANCE,
         growth_tolerance: GROWTH_TOLERANCE,
         noise_per_s: GROWTH_NOISE * (top_rad_per_s + last),
-        solve: &|speed| evaluator.sample(speed),
+        solve: &|speed| checked.sample(speed),
     };
     search.pieces(speeds)
 }
@@ -215,7 +215,7 @@ fn clipped(stretches: &[SpeedRange], range: SpeedRange) -> Vec<SpeedRange> {
 
 /// A list of bands with the data for the checks of it.
 pub struct Checks<'a> {
-    pub evaluator: &'a CheckedModes<'a>,
+    pub checked: &'a CheckedModes<'a>,
     pub full: &'a ModeCounts<'a>,
     pub pieces: &'a [Piece],
     pub bands: &'a [Instability],
@@ -231,10 +231,10 @@ impl Checks<'_> {
         let mut contradicted = contradictions(self.bands, self.samples, GROWTH_FLOOR);
         let mut miscounts = self.at_anchors()?;
         let mut unproven = None;
-        let gave_up = self.evaluator.is_exhausted();
-        let height = self.evaluator.height_rad_per_s();
+        let gave_up = self.checked.is_exhausted();
+        let height = self.checked.height_rad_per_s();
         if depth == Depth::Proof {
-            let extra = self.evaluator.at_all(&self.chosen_speeds())?;
+            let extra = self.checked.at_all(&self.chosen_speeds())?;
             contradicted.extend(contradictions(self.bands, &extra, GROWTH_FLOOR));
             if !self.full.is_dense() {
                 miscounts.extend(
@@ -244,7 +244,7 @@ impl Checks<'_> {
             }
             let proof = Proof {
                 full: self.full,
-                evaluator: self.evaluator,
+                checked: self.checked,
                 pieces: self.pieces,
                 bands: self.bands,
             };
@@ -256,7 +256,7 @@ impl Checks<'_> {
             full_basis_counts: self.full.counted(),
             unproven_rad_per_s: unproven,
             gave_up,
-            ..self.evaluator.certificate()
+            ..self.checked.certificate()
         })
     }
 
@@ -281,7 +281,7 @@ impl Checks<'_> {
         places.dedup();
         let anchors: Vec<&Sample> = places.into_iter().map(|k| &samples[k]).collect();
         self.full
-            .miscounts(&anchors, self.evaluator.height_rad_per_s())
+            .miscounts(&anchors, self.checked.height_rad_per_s())
     }
 
     /// Speeds on both sides and at the peak of every flutter band, and random speeds.
@@ -305,7 +305,7 @@ impl Checks<'_> {
         let is_reflected = |speed: f64| self.full.negative_stiffness(speed) > 0;
         let spans = |speed: f64| {
             let away = NEXT_TO_CRITICAL * speed;
-            self.evaluator.spans_critical(speed - away, speed + away)
+            self.checked.spans_critical(speed - away, speed + away)
         };
         speeds
             .retain(|speed| (from..=to).contains(speed) && is_reflected(*speed) && !spans(*speed));

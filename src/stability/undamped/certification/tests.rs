@@ -44,13 +44,13 @@ static SOUND: LazyLock<Sound> = LazyLock::new(|| {
 
 /// Certificate of a list of bands, which may be wrong, with samples that a function may make wrong.
 fn certified(sound: &Sound, bands: &[Instability], change: impl Fn(&mut Sample)) -> Certificate {
-    let evaluator = CheckedModes::new(&sound.model);
-    let pieces = searched_pieces(&evaluator, &sound.speeds).unwrap();
-    let mut samples = evaluator.samples();
+    let checked = CheckedModes::new(&sound.model);
+    let pieces = searched_pieces(&checked, &sound.speeds).unwrap();
+    let mut samples = checked.samples();
     samples.iter_mut().for_each(change);
     let full = ModeCounts::new(&sound.model).unwrap();
     let checks = Checks {
-        evaluator: &evaluator,
+        checked: &checked,
         full: &full,
         pieces: &pieces,
         bands,
