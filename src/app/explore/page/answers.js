@@ -17,7 +17,6 @@ export class Answers {
     this.#refresh(place);
   }
 
-  // Marks and unmarks all answers after a change of the scene.
   refresh() {
     for (const place of this.#all.keys()) this.#refresh(place);
   }

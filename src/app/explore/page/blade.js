@@ -18,7 +18,6 @@ const placeAt = (x, y) => ({ radius_m: Math.hypot(x, y), angle_deg: (Math.atan2(
 const isPad = (path) => path.startsWith("guides");
 const numberOf = (path) => Number(path.match(/\d+/)[0]) + 1;
 
-// Returns where a pad, the cut or the probe is.
 function placeOf(scene, path) {
   const part = get(scene, path) ?? { angle_deg: 90 };
   return { radius_m: part.radius_m ?? 0.5 * scene.blade.outer_diameter_m, angle_deg: part.angle_deg ?? 0 };
@@ -89,7 +88,6 @@ export class Blade {
     this.svg.classList.toggle("hinting", on);
   }
 
-  // Marks the part with this path, and unmarks all others.
   select(path) {
     this.selected = path;
     for (const group of this.things.children) group.classList.toggle("selected", group.dataset.path === path);
@@ -131,7 +129,6 @@ export class Blade {
     this.mark.replaceChildren(drawn("circle", { class: "mark", cx: b * 0.93, cy: 0, r: 4 * px }));
   }
 
-  // Makes the group of a part.
   #add(path) {
     const body = drawn("path", { class: "body" });
     const group = drawn("g", { class: isPad(path) ? "pad" : path, tabindex: 0, role: "button", "data-path": path }, drawn("title", {}), body);

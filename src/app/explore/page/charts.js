@@ -70,7 +70,6 @@ export class Charts {
     this.growth.chart.setSize({ width, height: 190 });
   }
 
-  // Shows or hides the measured points.
   showMeasured(on) {
     this.measured = on;
     this.redraw();
@@ -99,7 +98,6 @@ export class Charts {
     return [...(bands ?? []), ...items.filter((item) => !isReplaced(item)), ...critical];
   }
 
-  // Items of the diagram.
   get items() {
     return this.#items(0);
   }
@@ -129,7 +127,6 @@ export class Charts {
     return this.#onAxes.map(({ figure }) => figure.panels[number]);
   }
 
-  // Returns the range of an axis of a panel.
   #range(number, side) {
     const ranges = this.#panels(number).map((panel) => panel[side].range);
     return ranges.length > 0 ? [Math.min(...ranges.map(([least]) => least)), Math.max(...ranges.map(([, most]) => most))] : [0, 1];
@@ -141,7 +138,6 @@ export class Charts {
     return this.#panels(1).some(({ y }) => y.spread === "signed_root");
   }
 
-  // Number of rows of band labels above the curves of growth.
   get #rows() {
     return Math.min(this.#panels(1)[0].items.filter(({ item }) => item === "band").length, ROWS);
   }
@@ -217,7 +213,6 @@ export class Charts {
     return this.pointed && this.#isShown(this.pointed) ? this.pointed.branch.rpm[this.pointed.i] : 0.5 * (from + to);
   }
 
-  // Returns whether a point is in the picture.
   #isShown({ branch, i }) {
     const { x, y } = this.campbell.chart.scales;
     const [rpm, hz] = [branch.rpm[i], branch.frequency_hz[i]];
@@ -307,7 +302,6 @@ export class Charts {
     });
   }
 
-  // Highlights a point of a branch, or none.
   point(found) {
     if (found?.branch === this.pointed?.branch && found?.i === this.pointed?.i) return;
     this.pointed = found;

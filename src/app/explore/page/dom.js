@@ -23,7 +23,6 @@ export function node(tag, properties = {}, ...children) {
 
 const SVG = "http://www.w3.org/2000/svg";
 
-// Makes an element of a drawing.
 export function drawn(tag, attributes, ...children) {
   const made = document.createElementNS(SVG, tag);
   for (const [name, value] of Object.entries(attributes)) made.setAttribute(name, String(value));

@@ -60,7 +60,6 @@ class Axis {
     return first + ((SPREADS[this.spread](value) - from) / (to - from || 1)) * (last - first);
   };
 
-  // Returns the value at a place.
   of(place) {
     const [[from, to], [first, last]] = [this.range.map(SPREADS[this.spread]), this.places];
     return VALUES[this.spread](from + ((place - first) / (last - first)) * (to - from));

@@ -21,7 +21,6 @@ export class Form {
   // Fields and groups that were made, and those fields that the present scene has.
   #made = new Map();
   #fields = new Map();
-  // Influences that were shown last.
   #found = [];
   // Part whose fields are shown; empty if those of all parts are.
   #chosen = PARTS[0];
@@ -103,7 +102,6 @@ export class Form {
     if (path) this.reveal(path);
   }
 
-  // Shows beside each number how it influences the speeds.
   influence(found = this.#found) {
     this.#found = found;
     const by = new Map(found.map((one) => [one.path, one]));
@@ -195,7 +193,6 @@ export class Form {
     return this.#group(path, isThere ? name : `${name} (none)`, schema.description, lacking, ...children);
   }
 
-  // Returns the button that puts a part in or takes it out.
   #switch(path, name, isThere) {
     const turn = () => {
       if ((get(this.state.scene, path) ?? null) === null) this.#putIn(path);

@@ -18,7 +18,6 @@ function usualTolerances(tolerances, scene) {
   });
 }
 
-// A field for each number that has a usual tolerance.
 class Tolerances {
   #all = [];
 
@@ -32,8 +31,12 @@ class Tolerances {
     const typed = new Map(this.#all.map((one) => [one.path, one]));
     this.#all = usual.map(({ path, width, unit, scale }) => {
       const before = typed.get(path);
-      if (before?.unit === unit) return before;
-      const input = node("input", { id: `study:${path}`, type: "text", defaultValue: shown(tidy(width * scale)) });
+      const defaultValue = shown(tidy(width * scale));
+      if (before?.unit === unit) {
+        before.input.defaultValue = defaultValue;
+        return before;
+      }
+      const input = node("input", { id: `study:${path}`, type: "text", defaultValue });
       // A typed number keeps the unit in which it was typed.
       const text = before && before.input.value !== before.input.defaultValue ? before.input.value : null;
       if (text !== null) input.value = /[\d.,]$/.test(text.trim()) ? `${text} ${before.unit}` : text;
@@ -74,7 +77,6 @@ class Axes {
   }
 }
 
-// The goal of a placement.
 class Goal {
   #goal = menu("place-goal", [["", "largest flutter speed"], ["window", "widest stable window around the operating speed"]]);
   #least = node("input", { id: "place-least", type: "text", placeholder: "none" });
@@ -90,5 +92,4 @@ class Goal {
   }
 }
 
-// Inputs of the tasks that have some.
 export const INPUTS = { study: Tolerances, map: Axes, place: Goal };

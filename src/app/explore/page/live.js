@@ -32,12 +32,10 @@ export class Live {
     this.onBusy = onBusy;
   }
 
-  // Whether any chart was requested yet.
   get asked() {
     return this.#count > 0;
   }
 
-  // Whether a chart is being computed.
   get isBusy() {
     return this.#computing !== null;
   }

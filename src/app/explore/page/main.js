@@ -115,13 +115,11 @@ async function addPad(place) {
   }
 }
 
-// Sets whether the next click on the blade adds a pad.
 function adding(on) {
   blade.isAdding = on;
   by("add").setAttribute("aria-pressed", String(on));
 }
 
-// Marks a pad, the cut or the probe in the drawing and its fields in the form.
 function select(path) {
   blade.select(path);
   form.select(path);
@@ -139,7 +137,6 @@ function onZoom(speeds) {
   pinned.zoomed(speeds);
 }
 
-// Shows an error that belongs to no field.
 function say(text) {
   write(by("fault"), text);
 }

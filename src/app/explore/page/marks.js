@@ -18,7 +18,6 @@ export class Painter {
     this.colours = colours;
   }
 
-  // Clips what `draw` draws to the panel.
   within(draw) {
     this.context.save();
     this.context.beginPath();
@@ -94,7 +93,6 @@ export class Painter {
     this.context.stroke();
   }
 
-  // Fills areas between two curves, and columns from zero on.
   areas(items) {
     for (const { item, x, low, high, edges, heights, colour, tint } of items) {
       if (item !== "area" && item !== "bars") continue;
@@ -134,7 +132,6 @@ export class Painter {
     return css(this.colours.dark ? mix(colour, DARK_PAPER, 0.72) : colour);
   }
 
-  // Draws the scale of colours to the right of the panel.
   scaleOf(heat, { unit, scale }) {
     const left = this.box.left + this.box.width + 10 * this.scale;
     const [least, most] = heat.range;
@@ -150,7 +147,6 @@ export class Painter {
     }
   }
 
-  // Draws grid, numbers and names of the axes of a panel.
   axes(x, y, hasNumbers) {
     const { left, top, width, height } = this.box;
     this.#stroke(this.colours.grid, 1);
@@ -181,13 +177,11 @@ export class Painter {
     this.context.restore();
   }
 
-  // Writes a line above the panel.
   heading(words, at) {
     this.#letters(this.colours.ink, "left", 12);
     this.context.fillText(fitted(this.context, words, this.box.width), this.box.left, at);
   }
 
-  // Writes the labels of points and those on curves.
   texts(items) {
     const [left, width] = [this.box.left, this.box.width];
     const write = (words, x, y, colour) => {
@@ -203,7 +197,6 @@ export class Painter {
     }
   }
 
-  // Draws a cross-hair at shares of the axes.
   cross(shares) {
     const [x, y] = shares;
     const { left, top, width, height } = this.box;
@@ -346,7 +339,6 @@ function broken(context, text, room) {
   return lines;
 }
 
-// Shortens a text to a width in canvas pixels.
 function fitted(context, text, room) {
   if (context.measureText(text).width <= room) return text;
   let cut = text.length - 1;

@@ -31,7 +31,6 @@ function term(name, text, className = "fact") {
   return node("div", { className }, explain(node("dt", { textContent: name })), node("dd", { textContent: text }));
 }
 
-// Shows the main numbers of a saw, each with that of another saw if it differs.
 export function facts(place, now, before) {
   place.replaceChildren(...now.map(({ name, value, isAhead }) => {
     const text = told(value, before.find((one) => one.name === name)?.value);

@@ -95,7 +95,6 @@ export class Pinned {
     this.onUnpin();
   }
 
-  // Fills the table: a row for each pinned saw and one for the present saw.
   tell(facts) {
     const hadFocus = this.list.contains(document.activeElement);
     this.list.hidden = !this.isNamed;
@@ -145,7 +144,6 @@ export class Pinned {
   }
 }
 
-// Returns a sample of the line of a saw.
 function sample(dash) {
   return drawn("svg", { width: 30, height: 8, "aria-hidden": "true" }, drawn("line", { x2: 30, y1: 4, y2: 4, "stroke-dasharray": dash.join(" ") }));
 }

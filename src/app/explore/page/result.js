@@ -72,7 +72,6 @@ export class Result {
     this.page.answers.end(by("result"));
   }
 
-  // Shows the latest chart and the saws that it is compared with.
   compare() {
     const { pinned } = this.page;
     pinned.showWith(this.latest, by("side").checked && pinned.isNamed);

@@ -23,7 +23,6 @@ export class Ruler {
     new ResizeObserver(() => this.#again()).observe(place);
   }
 
-  // Moves the handle to the operating speed of the scene.
   refresh() {
     const rpm = this.state.scene[PATH];
     this.handle.value = String(rpm ?? 0);

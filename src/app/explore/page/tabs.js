@@ -45,7 +45,6 @@ export class Tabs {
     this.refresh();
   }
 
-  // Updates the visible tab after a change of the scene.
   refresh() {
     for (const { tasks } of this.#all.filter(({ group }) => !group.hidden)) for (const task of tasks) task.refresh();
   }

@@ -37,7 +37,6 @@ async function post(path, body, signal, shown = "") {
 const json = async (answer) => (await answer).json();
 
 export const start = () => json(ask("start"));
-
 export const mode = (shown, rpm, frequency_hz, signal) => json(post("mode", JSON.stringify({ chart: shown, rpm, frequency_hz }), signal));
 
 // Reads an answer that consists of lines of JSON. Each line is passed to `onLine` on arrival; the last one is the
@@ -67,33 +66,24 @@ export async function chart(text, draft, signal, onAhead) {
   return lastLine(answer, ({ figure }) => figure !== undefined, ({ ahead }) => onAhead(ahead));
 }
 
-// Computes the critical speeds of a scene alone, with the accuracy of a draft.
+// The critical speeds of a scene alone, with the accuracy of a draft.
 export const criticalSpeeds = (text) => json(post("critical", text));
-
-// Returns the progress of the chart that is being computed, or null.
+// The progress of the chart that is being computed, or null.
 export const progress = () => json(ask("progress", { headers: { "sawflutter-page": page } }));
-
-// Returns the file that the command line would write for this scene. `shown` is the identifier of the scene's chart, or
-// null.
-export const saved = async (name, scene, shown, signal) => (await post(`save/${name}`, JSON.stringify(scene), signal, shown ?? "")).blob();
-
-// Returns the scene that a text describes, as the program reads it.
+// The scene that a text describes, as the program reads it.
 export const read = (text) => json(post("read", text));
-
-// Returns the scene of a request with one more part.
+// The scene of a request with one more part.
 export const part = (asked) => json(post("part", JSON.stringify(asked)));
-
-// Returns the numbers that the texts of a field mean, in the unit of its key.
+// The numbers that the texts of a field mean, in the unit of its key.
 export const numbers = (path, texts) => json(post("numbers", JSON.stringify({ path, texts })));
-
+// The `measured` block of a scene for a table of measured frequencies.
+export const measured = (name, table) => json(post("measured", JSON.stringify({ name, table })));
+// The influence of the scene's numbers on the speeds of a chart.
+export const influence = (shown, signal) => json(post("influence", JSON.stringify(shown), signal));
 // Saves the scene to the file that the program was started with.
 export const write = (scene) => post("file", JSON.stringify(scene));
-
-// Returns the `measured` block of a scene for a table of measured frequencies.
-export const measured = (name, table) => json(post("measured", JSON.stringify({ name, table })));
-
-// Returns the influence of the scene's numbers on the speeds of a chart.
-export const influence = (shown, signal) => json(post("influence", JSON.stringify(shown), signal));
+// The file that the command line would write for this scene. `shown` is the identifier of the scene's chart, or null.
+export const saved = async (name, scene, shown, signal) => (await post(`save/${name}`, JSON.stringify(scene), signal, shown ?? "")).blob();
 
 // Computes a task and returns its answer. `onProgress({ what, done, of })` and `onFigures([[name, svg]])` are called in
 // the meantime.

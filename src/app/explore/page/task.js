@@ -32,7 +32,6 @@ const TASKS = [
 const button = (textContent, onclick) => node("button", { type: "button", textContent, onclick });
 const pictureOf = (svg) => URL.createObjectURL(new Blob([svg], { type: "image/svg+xml" }));
 
-// Inputs, progress and answer of a task.
 export class Task {
   #abort = null;
   // Saw that was computed last, also without an answer.
@@ -149,7 +148,6 @@ export class Task {
     this.so_far.textContent = `${what}: ${done} of ${of}`;
   }
 
-  // Shows an intermediate figure of the program.
   #grow([[, svg]], saw) {
     const picture = this.answer.querySelector(".so-far img") ?? node("img", { alt: `${this.entry.title}, as far as it is computed` });
     if (!picture.isConnected) this.#replace(node("figure", { className: "so-far" }, picture));
@@ -185,7 +183,6 @@ export class Task {
     this.#tellOutline();
   }
 
-  // Shows the answer in the units of the form and the colours of the page.
   #tellOutline() {
     this.card.replaceChildren(...outline(this.#outline));
     for (const figure of this.#figures) figure.draw(this.#map?.placeOf(this.state.scene));

@@ -30,8 +30,7 @@ function menu(place) {
 }
 
 // Connects the buttons to the parts of the page. `select(path)` and `adding(on)` select a part and let the next click add a
-// pad. Returns `refresh()`, which updates the
-// buttons after a change, and `measure()`, which takes over the unit of lengths of the last visit.
+// pad. Returns `refresh()`, which updates the buttons, and `measure()`, which takes over the unit of the last visit.
 export function toolbar({ state, files, kept, pinned, charts, blade, form, tabs, result, select, adding }) {
   function refresh() {
     const name = state.scene.name || "unnamed saw";
