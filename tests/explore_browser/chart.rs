@@ -254,10 +254,11 @@ fn a_chart_of_an_earlier_scene_is_not_shown_as_the_present_one() {
         assert_eq!(page.value(marked).await, json!(false));
         page.enter("blade.thickness_m", "3.1").await;
         page.wait(marked).await;
-        let told = page.text("#computed").await;
-        assert!(told.contains("before the last change"), "{told}");
+        let told = "document.querySelector('#outdated').checkVisibility()";
+        assert_eq!(page.value(told).await, json!(true));
         page.settle().await;
         assert_eq!(page.value(marked).await, json!(false));
+        assert_eq!(page.value(told).await, json!(false));
         let told_again = page.text("#computed").await;
         assert!(told_again.starts_with("reference accuracy"), "{told_again}");
         page.close().await;

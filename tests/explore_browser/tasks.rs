@@ -82,6 +82,27 @@ fn a_cut_is_the_one_that_the_command_line_finds() {
             .await;
         assert!(pictures.as_u64().unwrap() >= 2, "{pictures}");
 
+        // A figure says what its data have under the pointer: the values of its axes, and the name of an item as a tooltip.
+        let read = "((canvas) => { \
+            const { left, top, width, height } = canvas.getBoundingClientRect(); \
+            const names = new Set(); \
+            for (let x = 60; x < width; x += 6) for (let y = 20; y < height - 40; y += 6) { \
+                canvas.dispatchEvent(new PointerEvent('pointermove', { clientX: left + x, clientY: top + y })); \
+                names.add(canvas.title); \
+            } \
+            canvas.dispatchEvent(new PointerEvent('pointermove', { clientX: left + 100, clientY: top + 100 })); \
+            return [canvas.parentElement.querySelector('.at').textContent, [...names]]; \
+            })(document.querySelector('#panel-cut .answer canvas'))";
+        let (values, names): (String, Vec<String>) =
+            serde_json::from_value(page.value(read).await).unwrap();
+        assert!(
+            values.contains(" s, ") && values.ends_with(" mm"),
+            "{values}"
+        );
+        for name in ["deflection", "growth by the eigenvalues"] {
+            assert!(names.iter().any(|own| own == name), "{names:?}");
+        }
+
         // An answer is marked as one of an earlier scene as soon as the scene changes.
         let old = "document.querySelector('#panel-cut .answer').classList.contains('earlier')";
         assert_eq!(page.value(old).await, json!(false));

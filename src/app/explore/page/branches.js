@@ -44,7 +44,8 @@ export function samePoint(report, { branch, i }) {
   return { branch: found, i: off.indexOf(Math.min(...off)) };
 }
 
-function toSegment([px, py], [ax, ay], [bx, by]) {
+// Returns the distance of a point from the straight line between two others.
+export function toSegment([px, py], [ax, ay], [bx, by]) {
   const [dx, dy] = [bx - ax, by - ay];
   const length = dx * dx + dy * dy;
   const t = length > 0 ? Math.min(Math.max(((px - ax) * dx + (py - ay) * dy) / length, 0), 1) : 0;

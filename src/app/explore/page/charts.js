@@ -1,11 +1,10 @@
 // Draws the Campbell diagram and the growth rates as the program describes them: panels by panel.js, items by marks.js.
 
 import { nearest, samePoint, walked } from "./branches.js";
-import { node } from "./dom.js";
 import { hand } from "./hand.js";
 import { Painter } from "./marks.js";
 import { plot, splitsOf } from "./panel.js";
-import { shown } from "./words.js";
+import { readOut } from "./readout.js";
 
 // Smallest range of speeds that can be magnified, as a share of the sweep.
 const LEAST_STRETCH = 1e-3;
@@ -27,7 +26,7 @@ export class Charts {
   // Early items of a saw whose chart is still being computed: critical speeds, and bands or null. Null once the chart
   // is shown.
   #ahead = null;
-  // Axes that are kept during a drag, or null.
+  // Charts whose axes are kept during a drag, or null.
   #held = null;
 
   constructor(campbellPlace, growthPlace, colours, { onHover, onZoom }) {
@@ -39,7 +38,7 @@ export class Charts {
     const room = () => (narrow() ? 20 : this.width < 700 ? 108 : 150);
     this.campbell = plot(campbellPlace, {
       height: 380, label: "Frequency in space [Hz]", room: () => room(), xLabel: null,
-      yRange: () => this.#range(0),
+      yRange: () => this.#range(0, "y"),
       draw: (u) => this.#drawCampbell(u, narrow()),
     });
     this.growth = plot(growthPlace, {
@@ -49,8 +48,7 @@ export class Charts {
     });
     this.setColours(colours);
     this.places = [campbellPlace, growthPlace];
-    this.readout = node("span", { className: "at" });
-    campbellPlace.append(this.readout);
+    campbellPlace.append(readOut(this.campbell.chart.over, (event) => this.#seen(event)));
     this.#follow(campbellPlace);
     for (const { chart } of [this.campbell, this.growth]) this.#zoomTogether(chart);
     new ResizeObserver(() => this.resize()).observe(campbellPlace);
@@ -72,7 +70,6 @@ export class Charts {
     this.growth.chart.setSize({ width, height: 190 });
   }
 
-  // Shows or hides the measured points.
   showMeasured(on) {
     this.measured = on;
     this.redraw();
@@ -92,6 +89,7 @@ export class Charts {
     this.redraw();
   }
 
+  // Returns the items of a panel, early ones if its chart is still being computed.
   #items(number) {
     const { items } = this.#chart.figure.panels[number];
     if (!this.#ahead) return items;
@@ -100,7 +98,6 @@ export class Charts {
     return [...(bands ?? []), ...items.filter((item) => !isReplaced(item)), ...critical];
   }
 
-  // Items of the diagram, early ones if its chart is still being computed.
   get items() {
     return this.#items(0);
   }
@@ -112,8 +109,7 @@ export class Charts {
   // Keeps the axes during a drag, so that the user sees the lines move and not the axes; or lets them follow the chart
   // again.
   hold(on) {
-    if (!on) this.#held = null;
-    else if (this.#chart) this.#held ??= { ranges: [this.#range(0), this.#range(1)], isRooted: this.#isRooted, rows: this.#rows, sweep: this.#sweep };
+    this.#held = on && this.#chart ? this.#onAxes : null;
   }
 
   // Sets the other chart on these axes and the magnified range. The caller shows a chart afterwards, which draws both.
@@ -122,32 +118,33 @@ export class Charts {
     this.#zoom = stretch;
   }
 
-  // Returns the panels with this number of all charts on these axes.
-  #panels(number) {
-    return [this.#chart, this.#other].filter((chart) => chart !== null).map(({ figure }) => figure.panels[number]);
+  // All charts that the axes are for.
+  get #onAxes() {
+    return this.#held ?? [this.#chart, this.#other].filter((chart) => chart !== null);
   }
 
-  // Returns the range of the vertical axis of a panel.
-  #range(number) {
-    if (this.#held) return this.#held.ranges[number];
-    const ranges = this.#panels(number).map(({ y }) => y.range);
-    return ranges.length ? [Math.min(...ranges.map((r) => r[0])), Math.max(...ranges.map((r) => r[1]))] : [0, 1];
+  #panels(number) {
+    return this.#onAxes.map(({ figure }) => figure.panels[number]);
+  }
+
+  #range(number, side) {
+    const ranges = this.#panels(number).map((panel) => panel[side].range);
+    return ranges.length > 0 ? [Math.min(...ranges.map(([least]) => least)), Math.max(...ranges.map(([, most]) => most))] : [0, 1];
   }
 
   // Whether growth rates have a square-root scale, which the program chooses if one band grows much faster than
   // another.
   get #isRooted() {
-    return this.#held?.isRooted ?? this.#panels(1).some(({ y }) => y.spread === "signed_root");
+    return this.#panels(1).some(({ y }) => y.spread === "signed_root");
   }
 
-  // Number of rows of band labels above the curves of growth.
   get #rows() {
-    return this.#held?.rows ?? Math.min(this.#panels(1)[0].items.filter(({ item }) => item === "band").length, ROWS);
+    return Math.min(this.#panels(1)[0].items.filter(({ item }) => item === "band").length, ROWS);
   }
 
   // Returns the range of the axis of growth rates, with room for the labels of bands.
   #growthRange() {
-    const [least, most] = this.#range(1).map(this.#height);
+    const [least, most] = this.#range(1, "y").map(this.#height);
     const room = this.#chart ? (this.#rows * ROW_PX * devicePixelRatio) / this.growth.chart.bbox.height : 0;
     return [least, least + (most - least) / (1 - Math.min(room, 0.5))];
   }
@@ -155,16 +152,9 @@ export class Charts {
   // Position of a growth rate on its axis: on a root scale, its signed square root.
   #height = (rate) => (this.#isRooted ? Math.sign(rate) * Math.sqrt(Math.abs(rate)) : rate);
 
-  // First and last speed [rpm] of the sweeps of all charts on these axes.
-  get #sweep() {
-    if (this.#held) return this.#held.sweep;
-    const sweeps = this.#panels(0).map(({ x }) => x.range);
-    return [Math.min(...sweeps.map((s) => s[0])), Math.max(...sweeps.map((s) => s[1]))];
-  }
-
   // First and last speed [rpm] that are shown.
   get speeds() {
-    return this.#zoom ?? this.#sweep;
+    return this.#zoom ?? this.#range(0, "x");
   }
 
   // Magnified range of speeds [rpm], or null.
@@ -183,7 +173,7 @@ export class Charts {
       magnify: (factor, px) => this.#chart !== null && this.#magnify(factor, chart.posToVal(px, "x")),
       shift: (px) => {
         if (!this.#zoom) return;
-        const [[from, to], [from_rpm, to_rpm]] = [this.#zoom, this.#sweep];
+        const [[from, to], [from_rpm, to_rpm]] = [this.#zoom, this.#range(0, "x")];
         const wanted = chart.posToVal(0, "x") - chart.posToVal(px, "x");
         const by = Math.min(Math.max(wanted, from_rpm - from), to_rpm - to);
         this.zoom([from + by, to + by]);
@@ -196,7 +186,7 @@ export class Charts {
   // Shows a range of speeds, limited to the sweep, or all speeds if it is null. A range that is too small is ignored.
   // Returns whether the range has changed.
   zoom(speeds) {
-    const [from_rpm, to_rpm] = this.#sweep;
+    const [from_rpm, to_rpm] = this.#range(0, "x");
     const ends = speeds && [Math.max(speeds[0], from_rpm), Math.min(speeds[1], to_rpm)];
     const wanted = ends && (ends[0] > from_rpm || ends[1] < to_rpm) ? ends : null;
     const least = LEAST_STRETCH * (to_rpm - from_rpm);
@@ -223,7 +213,6 @@ export class Charts {
     return this.pointed && this.#isShown(this.pointed) ? this.pointed.branch.rpm[this.pointed.i] : 0.5 * (from + to);
   }
 
-  // Returns whether a point is in the picture.
   #isShown({ branch, i }) {
     const { x, y } = this.campbell.chart.scales;
     const [rpm, hz] = [branch.rpm[i], branch.frequency_hz[i]];
@@ -280,16 +269,20 @@ export class Charts {
     if (note) painter.note(note);
   }
 
+  // Returns the diagram as it is read out under the pointer.
+  #seen({ offsetX, offsetY }) {
+    const { chart } = this.campbell;
+    const axis = (side) => ({ at: (value) => chart.valToPos(value, side), of: (pixel) => chart.posToVal(pixel, side) });
+    return this.#chart && { panel: { ...this.#chart.figure.panels[0], items: this.items }, axes: { x: axis("x"), y: axis("y") }, pixels: [offsetX, offsetY] };
+  }
+
   // Highlights the branch nearest to the pointer, or the one that is chosen with the arrow keys.
   #follow(element) {
     const over = this.campbell.chart.over;
     over.addEventListener("pointermove", (event) => {
-      const [rpm, hz] = [this.campbell.chart.posToVal(event.offsetX, "x"), this.campbell.chart.posToVal(event.offsetY, "y")];
-      this.readout.textContent = `${Math.round(rpm)} rpm, ${shown(hz, 3)} Hz`;
       if (event.buttons === 0 && event.pointerType !== "touch") this.point(this.report && nearest(this.report, this.campbell.chart, [event.offsetX, event.offsetY]));
     });
     over.addEventListener("pointerleave", ({ pointerType }) => {
-      this.readout.textContent = "";
       // A finger leaves the mode that it has tapped.
       if (pointerType !== "touch") this.point(null);
     });
@@ -309,7 +302,6 @@ export class Charts {
     });
   }
 
-  // Highlights a point of a branch, or none.
   point(found) {
     if (found?.branch === this.pointed?.branch && found?.i === this.pointed?.i) return;
     this.pointed = found;

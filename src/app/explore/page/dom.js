@@ -1,15 +1,39 @@
 // Helper functions for elements of the page.
 
+/** @returns {any} */
+export const by = (id) => document.getElementById(id);
+
 // Sets a text if it differs. Setting an equal text would cause another layout and another announcement by screen
 // readers.
 export function write(place, text) {
   if (place.textContent !== text) place.textContent = text;
 }
 
+// Makes an element. Names that are not those of a property are attributes.
+/** @returns {any} */
 export function node(tag, properties = {}, ...children) {
-  const made = Object.assign(document.createElement(tag), properties);
+  const made = document.createElement(tag);
+  for (const [name, value] of Object.entries(properties)) {
+    if (name in made) made[name] = value;
+    else made.setAttribute(name, value);
+  }
   made.append(...children);
   return made;
+}
+
+const SVG = "http://www.w3.org/2000/svg";
+
+export function drawn(tag, attributes, ...children) {
+  const made = document.createElementNS(SVG, tag);
+  for (const [name, value] of Object.entries(attributes)) made.setAttribute(name, String(value));
+  made.append(...children);
+  return made;
+}
+
+// Gives an element these children. Those that it has already stay, with their focus, selection and folds.
+export function arrange(place, wanted) {
+  for (const child of [...place.childNodes]) if (!wanted.includes(child)) child.remove();
+  wanted.forEach((child, k) => place.childNodes[k] === child || place.insertBefore(child, place.childNodes[k] ?? null));
 }
 
 let terms = {};

@@ -30,13 +30,11 @@ export function formUnit(unit) {
   return scale === undefined ? { unit, scale: 1 } : { unit: "in", scale };
 }
 
-// Returns the name of a number, with the guide that it belongs to.
 export function placeOf(path) {
   const { name } = unitOf(path);
   return path.startsWith("guides") ? `guide ${Number(/\d+/.exec(path)[0]) + 1}: ${name}` : name;
 }
 
-// Returns the name of a value of a scene with the value.
 export function nameOf(path, value) {
   const { unit, scale } = unitOf(path);
   const words = typeof value === "number" ? `${shown(value * scale, 4)} ${unit}` : value === undefined ? "none" : typeof value === "object" ? "" : value;

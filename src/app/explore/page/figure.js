@@ -4,6 +4,7 @@ import { node } from "./dom.js";
 import { formUnit } from "./fields.js";
 import { Painter } from "./marks.js";
 import { splitsOf } from "./panel.js";
+import { readOut } from "./readout.js";
 import { shown } from "./words.js";
 
 const HEIGHT = 300;
@@ -13,7 +14,9 @@ const LINE = 14;
 const NAMES = 120;
 const SCALE = 74;
 const LEAST_WIDTH = 520;
+// Positions of values on an axis, and the values at positions.
 const SPREADS = { linear: (v) => v, signed_root: (v) => Math.sign(v) * Math.sqrt(Math.abs(v)), logarithmic: (v) => Math.log10(Math.max(v, Number.MIN_VALUE)) };
+const VALUES = { linear: (p) => p, signed_root: (p) => p * Math.abs(p), logarithmic: (p) => 10 ** p };
 
 const known = (values) => values.filter((value) => value !== null);
 const ends = (values) => [Math.min(...values), Math.max(...values)];
@@ -45,7 +48,7 @@ class Axis {
     const { name, unit, spread, ticks, names } = panel[side];
     const own = formUnit(unit);
     this.range = rangeOf(panel, side);
-    this.spread = SPREADS[spread];
+    this.spread = spread;
     this.places = names.length > 0 && side === "y" ? places.toReversed() : places;
     this.ticks = names.length > 0 ? ticks.map((value, k) => [value, names[k]])
       : (ticks.length > 0 ? ticks : ticksOf(spread, this.range, own.scale)).map((value) => [value, shown(value * own.scale, 4).replace("-", "−")]);
@@ -53,14 +56,19 @@ class Axis {
   }
 
   at = (value) => {
-    const [from, to] = this.range.map(this.spread);
-    const [first, last] = this.places;
-    return first + ((this.spread(value) - from) / (to - from || 1)) * (last - first);
+    const [[from, to], [first, last]] = [this.range.map(SPREADS[this.spread]), this.places];
+    return first + ((SPREADS[this.spread](value) - from) / (to - from || 1)) * (last - first);
   };
+
+  of(place) {
+    const [[from, to], [first, last]] = [this.range.map(SPREADS[this.spread]), this.places];
+    return VALUES[this.spread](from + ((place - first) / (last - first)) * (to - from));
+  }
 }
 
 export class Figure {
-  #boxes = [];
+  // The panels with their places and their axes, in pixels of the page.
+  #panels = [];
   // Shares of the axes of the first panel at which it has a cross-hair; empty for none.
   #marked = [];
 
@@ -69,14 +77,16 @@ export class Figure {
   constructor(chart, name, colours, onClick = null) {
     this.chart = chart;
     this.colours = colours;
-    this.canvas = node("canvas", { role: "img", ariaLabel: `${name}; the words have its numbers` });
+    this.canvas = node("canvas", { role: "img", "aria-label": `${name}; the words have its numbers` });
     this.key = node("p", { className: "key" });
-    this.place = node("div", {}, node("p", { className: "remark", textContent: [chart.title, ...chart.facts].filter(Boolean).join(" · ") }), this.canvas, this.key);
+    const remark = node("p", { className: "remark", textContent: [chart.title, ...chart.facts].filter(Boolean).join(" · ") });
+    const at = readOut(this.canvas, (event) => this.#seen(event));
+    this.place = node("div", {}, remark, node("div", { className: "chart" }, this.canvas, at), this.key);
     if (onClick) {
       this.canvas.style.cursor = "pointer";
-      this.canvas.addEventListener("click", ({ offsetX, offsetY }) => {
-        const box = this.#boxes.find(({ left, top, width, height }) => left <= offsetX && offsetX <= left + width && top <= offsetY && offsetY <= top + height);
-        if (box) onClick([(offsetX - box.left) / box.width, (box.top + box.height - offsetY) / box.height]);
+      this.canvas.addEventListener("click", (event) => {
+        const { box, pixels: [x, y] } = this.#seen(event) ?? {};
+        if (box) onClick([(x - box.left) / box.width, (box.top + box.height - y) / box.height]);
       });
     }
     new ResizeObserver(() => this.draw()).observe(this.place);
@@ -91,13 +101,13 @@ export class Figure {
     const rows = Array.from({ length: Math.ceil(panels.length / columns) }, (_, row) => panels.slice(row * columns, (row + 1) * columns));
     const cell = width / columns;
     let top = 0;
-    this.#boxes = rows.flatMap((row) => {
-      const boxes = row.map((panel, column) => this.#box(panel, column * cell, top, cell));
-      top = Math.max(...boxes.map((box) => box.top + box.height)) + EDGE.bottom;
-      return boxes;
+    const boxes = rows.flatMap((row) => {
+      const own = row.map((panel, column) => this.#box(panel, column * cell, top, cell));
+      top = Math.max(...own.map((box) => box.top + box.height)) + EDGE.bottom;
+      return own;
     });
     this.#size(width, top);
-    panels.forEach((panel, k) => this.#panel(panel, this.#boxes[k]));
+    this.#panels = panels.map((panel, k) => this.#panel(panel, boxes[k]));
     const colours = this.colours();
     this.key.replaceChildren(...this.chart.key.map(({ name, colour }) => {
       const sample = node("span", { className: "sample", textContent: name });
@@ -121,12 +131,17 @@ export class Figure {
     return { left: left + EDGE.left, top: top + above, width, height: Math.min(height, 2 * HEIGHT) };
   }
 
-  #panel(panel, { left, top, width, height }) {
+  // Draws a panel at a place, and returns it with its axes.
+  #panel(panel, box) {
     const [scale, colours, context] = [devicePixelRatio, this.colours(), this.canvas.getContext("2d")];
-    const box = { left: left * scale, top: top * scale, width: width * scale, height: height * scale };
-    const x = new Axis(panel, "x", [box.left, box.left + box.width]);
-    const y = new Axis(panel, "y", [box.top + box.height, box.top]);
-    const painter = new Painter(context, { x: x.at, y: y.at, box, scale, colours });
+    const { left, top, width, height } = box;
+    /** @type {any} */
+    const axes = { x: new Axis(panel, "x", [left, left + width]), y: new Axis(panel, "y", [top + height, top]) };
+    const { x, y } = axes;
+    const pixels = (axis) => (value) => axis.at(value) * scale;
+    const painter = new Painter(context, {
+      x: pixels(x), y: pixels(y), box: { left: left * scale, top: top * scale, width: width * scale, height: height * scale }, scale, colours,
+    });
     painter.axes(x, y, panel.y.name !== "");
     painter.within(() => {
       painter.bands(panel.items);
@@ -144,5 +159,13 @@ export class Figure {
     if (heat) painter.scaleOf(heat, formUnit(heat.unit));
     [panel.title, ...panel.facts].filter(Boolean).forEach((line, k) => painter.heading(line, (top - EDGE.top + 2 - (panel.facts.length - k) * LINE) * scale));
     if (panel.note) painter.note(panel.note);
+    return { panel, box, axes };
+  }
+
+  // Returns the panel under the pointer, or null.
+  #seen({ offsetX, offsetY }) {
+    const isIn = ({ box: { left, top, width, height } }) => left <= offsetX && offsetX <= left + width && top <= offsetY && offsetY <= top + height;
+    const found = this.#panels.find(isIn);
+    return found ? { ...found, pixels: [offsetX, offsetY] } : null;
   }
 }

@@ -33,7 +33,6 @@ export class Files {
     addEventListener("hashchange", () => this.#paste());
   }
 
-  // Records that a scene is saved.
   saved(scene = this.state.scene) {
     this.#onDisk = JSON.stringify(scene);
   }
@@ -92,22 +91,17 @@ export class Files {
         this.onChanged(target.name);
         return;
       }
-      const elsewhere = "“Save a copy” saves the saw elsewhere";
-      const reason = error instanceof Refused ? error.message
-        : error instanceof DOMException ? `${target.name} was not saved: ${error.message}; ${elsewhere}`
-        : `${target.name} was not saved: the program does not answer any more; ${elsewhere}`;
-      this.say(reason);
+      const reason = error instanceof DOMException ? error.message : "the program does not answer any more";
+      this.say(error instanceof Refused ? error.message : `${target.name} was not saved: ${reason}; “Save a copy” saves the saw elsewhere`);
     }
   }
 
   // Opens the file of the saw as another program has changed it.
   async load() {
     const { target } = this.state.origin;
-    try {
+    await this.#opening(target.name, async () => {
       this.#open(await read(this.#changed), { stem: this.#stem, target: { ...target, plain: isPlain(this.#changed) } });
-    } catch (error) {
-      this.say(`${target.name} was not opened, the scene is as it was: ${error.message}`);
-    }
+    });
   }
 
   #text() {
@@ -140,7 +134,6 @@ export class Files {
     this.state.replace(scene, this.#origin(target, scene));
   }
 
-  // Opens one of the examples.
   choose(example) {
     if (this.#mayReplace(example.name)) this.#open(example);
   }
@@ -164,7 +157,6 @@ export class Files {
     if (this.#saving === saving) this.onBusy(null);
   }
 
-  // Cancels the file that is being made.
   stop() {
     this.#saving?.abort();
     this.#saving = null;
@@ -173,7 +165,7 @@ export class Files {
   // Opens a scene or a table of measured frequencies. If the file is neither, the scene does not change. With a
   // `handle`, the page can save to the file.
   async open(file, handle = null) {
-    try {
+    await this.#opening(file.name, async () => {
       const text = await file.text();
       if (/\.(csv|tsv|txt)$/i.test(file.name)) {
         const points = await measured(file.name, text);
@@ -182,9 +174,11 @@ export class Files {
       }
       const scene = await read(text);
       if (this.#mayReplace(file.name)) this.#open(scene, { stem: file.name.replace(/\.[^.]*$/, ""), target: handle && this.#ofBrowser(handle, text) });
-    } catch (error) {
-      this.say(`${file.name} was not opened, the scene is as it was: ${error.message}`);
-    }
+    });
+  }
+
+  async #opening(name, open) {
+    await open().catch((error) => this.say(`${name} was not opened, the scene is as it was: ${error.message}`));
   }
 
   // Writes the scene into the address and copies it to the clipboard. The label of `button` then says where the link

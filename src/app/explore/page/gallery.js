@@ -1,16 +1,14 @@
 // Cards of saws: all examples in a dialog, and three ways to begin at the first visit.
 
-import { thumbnail } from "./blade.js";
 import { node } from "./dom.js";
+import { thumbnail } from "./shapes.js";
 
 const VISITED = "sawflutter visited";
 // Saws of the first visit, by the starts of their names: that of the paper, and one with a collar.
 const FIRST = ["Guided spline arbor saw", "400 mm blade between collars"];
 
 function card(picture, name, words, onClick) {
-  const made = node("button", { type: "button", className: "card" }, picture, node("strong", { textContent: name }), node("span", { textContent: words }));
-  made.addEventListener("click", onClick);
-  return made;
+  return node("button", { type: "button", className: "card", onclick: onClick }, picture, node("strong", { textContent: name }), node("span", { textContent: words }));
 }
 
 function inWords({ blade, guides = [], mount }) {
@@ -41,7 +39,7 @@ export function welcome(place, examples, { choose, open }) {
     then();
   };
   const [own, collar] = FIRST.map((start) => examples.find(({ name }) => name.startsWith(start)) ?? examples[0]);
-  const file = node("span", { className: "thumbnail", textContent: "+", ariaHidden: "true" });
+  const file = node("span", { className: "thumbnail", textContent: "+", "aria-hidden": "true" });
   place.querySelector(".cards").append(
     card(thumbnail(own), "The saw of a paper", inWords(own), end(() => {})),
     card(thumbnail(collar), "A saw with a collar", inWords(collar), end(() => choose(collar))),

@@ -26,19 +26,16 @@ export class Live {
   #ahead = null;
   #isLookingAhead = false;
 
-  constructor({ onChart, onAhead, onRefused, onBusy }) {
-    this.onChart = onChart;
-    this.onAhead = onAhead;
-    this.onRefused = onRefused;
+  // `result` shows what arrives; `onBusy(busy, draft)` is called when a chart begins and when none is computed any more.
+  constructor(result, onBusy) {
+    this.result = result;
     this.onBusy = onBusy;
   }
 
-  // Whether any chart was requested yet.
   get asked() {
     return this.#count > 0;
   }
 
-  // Whether a chart is being computed.
   get isBusy() {
     return this.#computing !== null;
   }
@@ -98,11 +95,11 @@ export class Live {
     if (newer && (newer.bands || !found.bands)) return;
     if (newer) {
       const ofBands = found.facts.filter((fact) => newer.facts.every(({ name }) => name !== fact.name));
-      this.onAhead({ ...found, critical: newer.critical, facts: [...newer.facts, ...ofBands] }, request);
+      this.result.showAhead({ ...found, critical: newer.critical, facts: [...newer.facts, ...ofBands] }, request);
       return;
     }
     this.#ahead = { found, request };
-    this.onAhead(found, request);
+    this.result.showAhead(found, request);
   }
 
   // Requests the final chart again, also if it is shown.
@@ -124,7 +121,7 @@ export class Live {
     this.stop();
     this.onBusy(false);
     shown.request.number = ++this.#count;
-    this.onChart(shown.chart, { ...shown.request, stamps, released });
+    this.result.show(shown.chart, { ...shown.request, stamps, released });
     return true;
   }
 
@@ -143,7 +140,7 @@ export class Live {
       this.#proceed(request);
     } catch (error) {
       this.#proceed(request);
-      if (!request.abort.signal.aborted) this.onRefused(error, request);
+      if (!request.abort.signal.aborted) this.result.refuse(error, request);
       return;
     }
     this.#show(found, request);
@@ -161,9 +158,9 @@ export class Live {
     const passed = request.draft ? request.number < (this.#shown?.request.number ?? 0) : request.number !== this.#count;
     if (passed) return;
     this.#shown = { chart: found, request };
-    this.onChart(found, request);
+    this.result.show(found, request);
     const ahead = this.#ahead;
-    if (ahead && ahead.request.number > request.number) this.onAhead(ahead.found, ahead.request);
+    if (ahead && ahead.request.number > request.number) this.result.showAhead(ahead.found, ahead.request);
     if (!request.draft || this.#computing) return;
     this.#rest = setTimeout(() => this.#run({ ...request, draft: false, stamps: [], number: ++this.#count }), REST_MS);
   }

@@ -18,7 +18,6 @@ export class Painter {
     this.colours = colours;
   }
 
-  // Clips what `draw` draws to the panel.
   within(draw) {
     this.context.save();
     this.context.beginPath();
@@ -42,11 +41,7 @@ export class Painter {
 
   upright(at, colour, width, dash) {
     const x = this.x(at);
-    this.#stroke(colour, width, dash);
-    this.context.beginPath();
-    this.context.moveTo(x, this.box.top);
-    this.context.lineTo(x, this.box.top + this.box.height);
-    this.context.stroke();
+    this.#line(colour, width, [[x, this.box.top], [x, this.box.top + this.box.height]], dash);
   }
 
   uprights(items, alarm) {
@@ -71,6 +66,14 @@ export class Painter {
     this.context.setLineDash([]);
   }
 
+  // Draws straight lines through points, in canvas pixels.
+  #line(colour, width, points, dash = []) {
+    this.#stroke(colour, width, dash);
+    this.context.beginPath();
+    for (const [x, y] of points) this.context.lineTo(x, y);
+    this.context.stroke();
+  }
+
   #stroke(colour, width, dash = []) {
     this.context.strokeStyle = colour;
     this.context.lineWidth = width * this.scale;
@@ -90,7 +93,6 @@ export class Painter {
     this.context.stroke();
   }
 
-  // Fills areas between two curves, and columns from zero on.
   areas(items) {
     for (const { item, x, low, high, edges, heights, colour, tint } of items) {
       if (item !== "area" && item !== "bars") continue;
@@ -130,7 +132,6 @@ export class Painter {
     return css(this.colours.dark ? mix(colour, DARK_PAPER, 0.72) : colour);
   }
 
-  // Draws the scale of colours to the right of the panel.
   scaleOf(heat, { unit, scale }) {
     const left = this.box.left + this.box.width + 10 * this.scale;
     const [least, most] = heat.range;
@@ -146,22 +147,14 @@ export class Painter {
     }
   }
 
-  // Draws grid, numbers and names of the axes of a panel.
   axes(x, y, hasNumbers) {
     const { left, top, width, height } = this.box;
     this.#stroke(this.colours.grid, 1);
     this.context.strokeRect(left, top, width, height);
-    const line = (...ends) => {
-      this.#stroke(this.colours.grid, 1);
-      this.context.beginPath();
-      this.context.moveTo(ends[0], ends[1]);
-      this.context.lineTo(ends[2], ends[3]);
-      this.context.stroke();
-    };
     let free = -Infinity;
     for (const [value, words] of x.ticks) {
-      const at = x.at(value);
-      line(at, top, at, top + height);
+      const at = this.x(value);
+      this.#line(this.colours.grid, 1, [[at, top], [at, top + height]]);
       this.#letters(this.colours.quiet, "center");
       const half = this.context.measureText(words).width / 2;
       if (at - half < free || at < left - 1 || at > left + width + 1) continue;
@@ -169,9 +162,9 @@ export class Painter {
       this.context.fillText(words, at, top + height + 10 * this.scale);
     }
     for (const [value, words] of hasNumbers ? y.ticks : []) {
-      const at = y.at(value);
+      const at = this.y(value);
       if (at < top - 1 || at > top + height + 1) continue;
-      line(left, at, left + width, at);
+      this.#line(this.colours.grid, 1, [[left, at], [left + width, at]]);
       this.#letters(this.colours.quiet, "right");
       this.context.fillText(fitted(this.context, words, left - 18 * this.scale), left - 5 * this.scale, at);
     }
@@ -184,13 +177,11 @@ export class Painter {
     this.context.restore();
   }
 
-  // Writes a line above the panel.
   heading(words, at) {
     this.#letters(this.colours.ink, "left", 12);
     this.context.fillText(fitted(this.context, words, this.box.width), this.box.left, at);
   }
 
-  // Writes the labels of points and those on curves.
   texts(items) {
     const [left, width] = [this.box.left, this.box.width];
     const write = (words, x, y, colour) => {
@@ -206,18 +197,12 @@ export class Painter {
     }
   }
 
-  // Draws a cross-hair at shares of the axes.
   cross(shares) {
     const [x, y] = shares;
     const { left, top, width, height } = this.box;
     const [at, level] = [left + x * width, top + (1 - y) * height];
-    this.#stroke(this.colours.ink, 1.5);
-    this.context.beginPath();
-    this.context.moveTo(at, top);
-    this.context.lineTo(at, top + height);
-    this.context.moveTo(left, level);
-    this.context.lineTo(left + width, level);
-    this.context.stroke();
+    this.#line(this.colours.ink, 1.5, [[at, top], [at, top + height]]);
+    this.#line(this.colours.ink, 1.5, [[left, level], [left + width, level]]);
   }
 
   points(items) {
@@ -248,6 +233,17 @@ export class Painter {
     this.context.fillStyle = colour;
   }
 
+  // Writes a text from `left` on, on a background in the colour of the page. `beside` and `height` are in pixels of the page.
+  #onPaper(text, colour, left, middle, { beside = 0, height, opacity = 1 }) {
+    const { context, scale } = this;
+    context.globalAlpha = opacity;
+    context.fillStyle = this.colours.paper;
+    context.fillRect(left - beside * scale, middle - 0.5 * height * scale, context.measureText(text).width + 2 * beside * scale, height * scale);
+    context.globalAlpha = 1;
+    context.fillStyle = this.colours[colour];
+    context.fillText(text, left, middle);
+  }
+
   #has(at) {
     return this.x(at) >= this.box.left && this.x(at) <= this.box.left + this.box.width;
   }
@@ -258,11 +254,7 @@ export class Painter {
     this.#letters(this.colours.paper, "left", 12);
     const lines = broken(this.context, words, this.box.width - 20 * this.scale);
     lines.forEach((line, k) => {
-      const at = middle + 16 * (k - 0.5 * (lines.length - 1)) * this.scale;
-      this.context.fillStyle = this.colours.paper;
-      this.context.fillRect(left - 4 * this.scale, at - 9 * this.scale, this.context.measureText(line).width + 8 * this.scale, 18 * this.scale);
-      this.context.fillStyle = this.colours.quiet;
-      this.context.fillText(line, left, at);
+      this.#onPaper(line, "quiet", left, middle + 16 * (k - 0.5 * (lines.length - 1)) * this.scale, { beside: 4, height: 18 });
     });
   }
 
@@ -274,18 +266,14 @@ export class Painter {
     const uprights = items.filter(({ item, x }) => item === "upright" && this.#has(x));
     const isLater = ({ role }) => Number(role !== "operating");
     for (const { x, label } of uprights.sort((a, b) => isLater(a) - isLater(b))) {
-      this.#letters(this.colours.ink, "center");
-      const half = context.measureText(label).width / 2 + 3 * scale;
-      const [left, right] = [this.x(x) - half, this.x(x) + half];
+      this.#letters(this.colours.ink, "left");
+      const half = context.measureText(label).width / 2;
+      const [left, right] = [this.x(x) - half - 3 * scale, this.x(x) + half + 3 * scale];
       const isFree = (row) => !taken.some((other) => other.row === row && other.left < right && left < other.right);
       const row = [-8, 8].find(isFree);
       if (row === undefined || taken.some((other) => other.label === label)) continue;
       taken.push({ row, left, right, label });
-      const middle = this.box.top + row * scale;
-      context.fillStyle = this.colours.paper;
-      if (row > 0) context.fillRect(left, middle - 7 * scale, right - left, 14 * scale);
-      context.fillStyle = this.colours.ink;
-      context.fillText(label, this.x(x), middle);
+      this.#onPaper(label, "ink", this.x(x) - half, this.box.top + row * scale, { beside: 3, height: row > 0 ? 14 : 0 });
     }
   }
 
@@ -303,14 +291,8 @@ export class Painter {
         && !taken.some((other) => other.row === row && other.left < right + gap && left < other.right + gap));
       if (!free) continue;
       taken.push(free);
-      const middle = this.box.top + height * (0.6 + free.row) * this.scale;
       // A translucent background keeps the label legible where thin bands pass behind it.
-      this.context.globalAlpha = 0.75;
-      this.context.fillStyle = this.colours.paper;
-      this.context.fillRect(free.left, middle - 6 * this.scale, width, 12 * this.scale);
-      this.context.globalAlpha = 1;
-      this.context.fillStyle = this.colours[band.colour];
-      this.context.fillText(band.label, free.left, middle);
+      this.#onPaper(band.label, band.colour, free.left, this.box.top + height * (0.6 + free.row) * this.scale, { height: 12, opacity: 0.75 });
     }
   }
 
@@ -339,12 +321,8 @@ export class Painter {
       const colour = this.colours[line.colour];
       this.#letters(colour, "left");
       context.fillText(fitted(context, line.end, context.canvas.width - right - 16 * scale), right + 14 * scale, at);
-      this.#stroke(colour, 1);
       context.globalAlpha = 0.5;
-      context.beginPath();
-      context.moveTo(right + 2 * scale, end);
-      context.lineTo(right + 12 * scale, at);
-      context.stroke();
+      this.#line(colour, 1, [[right + 2 * scale, end], [right + 12 * scale, at]]);
       context.globalAlpha = 1;
     }
   }
@@ -361,7 +339,6 @@ function broken(context, text, room) {
   return lines;
 }
 
-// Shortens a text to a width in canvas pixels.
 function fitted(context, text, room) {
   if (context.measureText(text).width <= room) return text;
   let cut = text.length - 1;

@@ -31,11 +31,9 @@ function term(name, text, className = "fact") {
   return node("div", { className }, explain(node("dt", { textContent: name })), node("dd", { textContent: text }));
 }
 
-// Shows the main numbers of a saw, each with that of another saw if it differs.
 export function facts(place, now, before) {
   place.replaceChildren(...now.map(({ name, value, isAhead }) => {
-    const other = before.find((one) => one.name === name);
-    const text = told(value, other?.value);
+    const text = told(value, before.find((one) => one.name === name)?.value);
     const changed = text !== told(value);
     return term(name, text, ["fact", changed && "changed", isAhead && "ahead"].filter(Boolean).join(" "));
   }));
@@ -52,9 +50,7 @@ function table({ title, columns, rows }) {
     node("caption", { textContent: title }),
     node("thead", {}, node("tr", {}, ...heads.map(cell("th")))),
     node("tbody", {}, ...rows.flatMap(shownRow)));
-  const scrolled = node("div", { className: "table", tabIndex: 0, ariaLabel: title || heads.join(", ") }, whole);
-  scrolled.setAttribute("role", "region");
-  return scrolled;
+  return node("div", { className: "table", tabIndex: 0, role: "region", "aria-label": title || heads.join(", ") }, whole);
 }
 
 const BLOCKS = {
@@ -63,7 +59,7 @@ const BLOCKS = {
   reason: (text) => node("p", { textContent: text }),
   sentence: (text) => node("p", { textContent: text }),
   remark: ({ word, text }) => node("p", { className: "warning", textContent: `${word}: ${text}` }),
-  facts: ({ title, facts: all }) => node("dl", { className: "numbers-of-answer", ariaLabel: title || null }, ...all.map(({ name, value, before, remark }) => term(name, `${told(value, before)} ${remark}`.trimEnd()))),
+  facts: ({ title, facts: all }) => node("dl", { className: "numbers-of-answer", "aria-label": title }, ...all.map(({ name, value, before, remark }) => term(name, `${told(value, before)} ${remark}`.trimEnd()))),
   table,
 };
 

@@ -2,14 +2,13 @@
 // last one beside the present one.
 
 import { Charts } from "./charts.js";
-import { node } from "./dom.js";
+import { drawn, node } from "./dom.js";
 import { told } from "./outline.js";
 import { nameOf } from "./fields.js";
 import { clone, differences, get } from "./scene.js";
 
 // Dashes of the lines of pinned saws. There are no more, because the chart would be hard to read.
 const DASHES = [[], [7, 4], [2, 3], [9, 3, 2, 3]];
-const SVG = "http://www.w3.org/2000/svg";
 // Largest number of differences in the name of a saw.
 const MOST_NAMED = 2;
 const KEPT = "sawflutter pins";
@@ -30,7 +29,7 @@ export class Pinned {
     this.present = present;
     this.onUnpin = onUnpin;
     this.campbell = node("div", { role: "img", className: "campbell" });
-    this.growth = node("div", { role: "img", ariaLabel: "Growth rates of the pinned saw" });
+    this.growth = node("div", { role: "img", "aria-label": "Growth rates of the pinned saw" });
     this.title = node("h2");
     place.append(this.title, this.campbell, this.growth);
   }
@@ -96,14 +95,12 @@ export class Pinned {
     this.onUnpin();
   }
 
-  // Fills the table: a row for each pinned saw and one for the present saw.
   tell(facts) {
     const hadFocus = this.list.contains(document.activeElement);
     this.list.hidden = !this.isNamed;
     const cells = (all) => all.map(({ value }) => node("td", { textContent: told(value) }));
     const rows = this.#saws.map((saw) => {
-      const out = node("button", { type: "button", textContent: "×", title: "Unpin", ariaLabel: `Unpin ${saw.name}` });
-      out.addEventListener("click", () => this.#unpin(saw));
+      const out = node("button", { type: "button", textContent: "×", title: "Unpin", "aria-label": `Unpin ${saw.name}`, onclick: () => this.#unpin(saw) });
       return node("tr", {}, node("th", { scope: "row" }, out, " ", sample(saw.dash), " ", node("span", { textContent: saw.name })), ...cells(saw.chart.told.facts));
     });
     const heads = ["Saw", ...facts.map(({ name }) => name)].map((textContent) => node("th", { scope: "col", textContent }));
@@ -147,12 +144,6 @@ export class Pinned {
   }
 }
 
-// Returns a sample of the line of a saw.
 function sample(dash) {
-  const picture = document.createElementNS(SVG, "svg");
-  const line = document.createElementNS(SVG, "line");
-  for (const [key, value] of Object.entries({ width: 30, height: 8, "aria-hidden": "true" })) picture.setAttribute(key, String(value));
-  for (const [key, value] of Object.entries({ x2: 30, y1: 4, y2: 4, "stroke-dasharray": dash.join(" ") })) line.setAttribute(key, String(value));
-  picture.append(line);
-  return picture;
+  return drawn("svg", { width: 30, height: 8, "aria-hidden": "true" }, drawn("line", { x2: 30, y1: 4, y2: 4, "stroke-dasharray": dash.join(" ") }));
 }

@@ -1,8 +1,8 @@
 // Shows the mode at the highlighted point as a text and as an animation on the blade, and saves it as a video.
 
-import { Blade } from "./blade.js";
 import { download, node, write } from "./dom.js";
 import { Motion } from "./motion.js";
+import { reachOf } from "./shapes.js";
 import { mode } from "./talk.js";
 import { krein, numbered, shown } from "./words.js";
 
@@ -48,7 +48,7 @@ export class Pointed {
     this.#asked = new AbortController();
     try {
       const shape = await mode(chart, branch.rpm[i], branch.frequency_hz[i], this.#asked.signal);
-      const slower = this.motion.show(shape, this.scene(), Blade.reach(this.scene()));
+      const slower = this.motion.show(shape, this.scene(), reachOf(this.scene()));
       document.body.classList.add("moving");
       this.#filmed = shape;
       this.film.disabled = this.motion.still || !globalThis.MediaRecorder;
@@ -85,7 +85,7 @@ export class Pointed {
 
   async #save() {
     this.film.disabled = true;
-    this.motion.show(this.#filmed, this.scene(), Blade.reach(this.scene()));
+    this.motion.show(this.#filmed, this.scene(), reachOf(this.scene()));
     download(this.nameOf("mode.webm"), await this.motion.film());
     this.motion.hide();
     this.film.disabled = false;

@@ -2,7 +2,6 @@
 // slider is at its end, and its range does not change.
 
 export class Range {
-  // Number of steps of a slider.
   static NOTCHES = 400;
 
   // `field` is the entry of the table of numbers, with kind and usual range. If the scene has no value, the geometric mean of

@@ -14,14 +14,15 @@ export class Ruler {
   constructor(place, state) {
     this.state = state;
     this.marks = node("div", { className: "marks" });
-    this.handle = node("input", { type: "range", min: "0", step: "1", ariaLabel: "Operating speed, on the ruler" });
-    this.handle.addEventListener("input", (event) => state.set(PATH, Number(this.handle.value), { draft: true, stamp: event.timeStamp, run: PATH }));
-    this.handle.addEventListener("change", (event) => state.settle(event.timeStamp));
+    this.handle = node("input", {
+      type: "range", min: 0, step: 1, "aria-label": "Operating speed, on the ruler",
+      oninput: ({ timeStamp: stamp }) => state.set(PATH, Number(this.handle.value), { draft: true, stamp, run: PATH }),
+      onchange: (event) => state.settle(event.timeStamp),
+    });
     place.append(this.marks, this.handle);
     new ResizeObserver(() => this.#again()).observe(place);
   }
 
-  // Moves the handle to the operating speed of the scene.
   refresh() {
     const rpm = this.state.scene[PATH];
     this.handle.value = String(rpm ?? 0);

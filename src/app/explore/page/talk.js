@@ -34,15 +34,10 @@ async function post(path, body, signal, shown = "") {
   throw new Refused({ key: null, message: text || `the server answered ${answer.status}` });
 }
 
-export async function start() {
-  const answer = await ask("start");
-  return answer.json();
-}
+const json = async (answer) => (await answer).json();
 
-export async function mode(shown, rpm, frequency_hz, signal) {
-  const answer = await post("mode", JSON.stringify({ chart: shown, rpm, frequency_hz }), signal);
-  return answer.json();
-}
+export const start = () => json(ask("start"));
+export const mode = (shown, rpm, frequency_hz, signal) => json(post("mode", JSON.stringify({ chart: shown, rpm, frequency_hz }), signal));
 
 // Reads an answer that consists of lines of JSON. Each line is passed to `onLine` on arrival; the last one is the
 // result or a refusal.
@@ -71,64 +66,29 @@ export async function chart(text, draft, signal, onAhead) {
   return lastLine(answer, ({ figure }) => figure !== undefined, ({ ahead }) => onAhead(ahead));
 }
 
-// Computes the critical speeds of a scene alone, with the accuracy of a draft.
-export async function criticalSpeeds(text) {
-  const answer = await post("critical", text);
-  return answer.json();
-}
-
-// Returns the progress of the chart that is being computed, or null.
-export async function progress() {
-  const answer = await ask("progress", { headers: { "sawflutter-page": page } });
-  return answer.json();
-}
-
-// Returns the file that the command line would write for this scene. `shown` is the identifier of the scene's chart, or
-// null.
-export async function saved(name, scene, shown, signal) {
-  const answer = await post(`save/${name}`, JSON.stringify(scene), signal, shown ?? "");
-  return answer.blob();
-}
-
-// Returns the scene that a text describes, as the program reads it.
-export async function read(text) {
-  const answer = await post("read", text);
-  return answer.json();
-}
-
-// Returns the scene of a request with one more part.
-export async function part(asked) {
-  const answer = await post("part", JSON.stringify(asked));
-  return answer.json();
-}
-
-// Returns the numbers that the texts of a field mean, in the unit of its key.
-export async function numbers(path, texts) {
-  const answer = await post("numbers", JSON.stringify({ path, texts }));
-  return answer.json();
-}
-
+// The critical speeds of a scene alone, with the accuracy of a draft.
+export const criticalSpeeds = (text) => json(post("critical", text));
+// The progress of the chart that is being computed, or null.
+export const progress = () => json(ask("progress", { headers: { "sawflutter-page": page } }));
+// The scene that a text describes, as the program reads it.
+export const read = (text) => json(post("read", text));
+// The scene of a request with one more part.
+export const part = (asked) => json(post("part", JSON.stringify(asked)));
+// The numbers that the texts of a field mean, in the unit of its key.
+export const numbers = (path, texts) => json(post("numbers", JSON.stringify({ path, texts })));
+// The `measured` block of a scene for a table of measured frequencies.
+export const measured = (name, table) => json(post("measured", JSON.stringify({ name, table })));
+// The influence of the scene's numbers on the speeds of a chart.
+export const influence = (shown, signal) => json(post("influence", JSON.stringify(shown), signal));
 // Saves the scene to the file that the program was started with.
-export async function write(scene) {
-  await post("file", JSON.stringify(scene));
-}
-
-// Returns the `measured` block of a scene for a table of measured frequencies.
-export async function measured(name, table) {
-  const answer = await post("measured", JSON.stringify({ name, table }));
-  return answer.json();
-}
-
-// Returns the influence of the scene's numbers on the speeds of a chart.
-export async function influence(shown, signal) {
-  const answer = await post("influence", JSON.stringify(shown), signal);
-  return answer.json();
-}
+export const write = (scene) => post("file", JSON.stringify(scene));
+// The file that the command line would write for this scene. `shown` is the identifier of the scene's chart, or null.
+export const saved = async (name, scene, shown, signal) => (await post(`save/${name}`, JSON.stringify(scene), signal, shown ?? "")).blob();
 
 // Computes a task and returns its answer. `onProgress({ what, done, of })` and `onFigures([[name, svg]])` are called in
 // the meantime.
-export async function task(name, asked, signal, { onProgress, onFigures }) {
-  const answer = await post(`task/${name}`, JSON.stringify(asked), signal);
+export async function task(name, text, signal, { onProgress, onFigures }) {
+  const answer = await post(`task/${name}`, text, signal);
   const onLine = (told) => (told.so_far ? onFigures(told.so_far) : onProgress(told));
   return lastLine(answer, ({ summary }) => summary !== undefined, onLine);
 }

@@ -1,10 +1,8 @@
 // The buttons, menus and keys of the page.
 
-import { write } from "./dom.js";
+import { by, write } from "./dom.js";
 import { useInches } from "./fields.js";
 
-/** @returns {any} */
-const by = (id) => document.getElementById(id);
 /** @returns {any} */
 const first = (selector) => document.querySelector(selector);
 
@@ -31,10 +29,9 @@ function menu(place) {
   });
 }
 
-// Connects the buttons to the parts of the page. `pin()` pins the present saw, `compare()` shows the saws that are compared,
-// and `select(path)` and `adding(on)` select a part and let the next click add a pad. Returns `refresh()`, which updates the
-// buttons after a change, and `measure()`, which takes over the unit of lengths of the last visit.
-export function toolbar({ state, files, kept, pinned, charts, blade, form, tasks, pin, compare, select, adding }) {
+// Connects the buttons to the parts of the page. `select(path)` and `adding(on)` select a part and let the next click add a
+// pad. Returns `refresh()`, which updates the buttons, and `measure()`, which takes over the unit of the last visit.
+export function toolbar({ state, files, kept, pinned, charts, blade, form, tabs, result, select, adding }) {
   function refresh() {
     const name = state.scene.name || "unnamed saw";
     write(by("saw-name"), name);
@@ -65,7 +62,7 @@ export function toolbar({ state, files, kept, pinned, charts, blade, form, tasks
     by("inches").checked = on;
     useInches(on);
     form.build();
-    tasks.changed();
+    tabs.refresh();
     try {
       localStorage.setItem(INCHES, on ? "1" : "");
     } catch {
@@ -74,20 +71,36 @@ export function toolbar({ state, files, kept, pinned, charts, blade, form, tasks
   }
 
   by("fields").addEventListener("focusin", (event) => select(form.partOf(event.target)));
-  by("undo").addEventListener("click", () => state.undo());
-  by("redo").addEventListener("click", () => state.redo());
-  by("pin").addEventListener("click", pin);
-  by("gallery").addEventListener("click", () => by("examples").showModal());
-  by("add").addEventListener("click", () => adding(!blade.isAdding));
   addEventListener("keydown", (event) => event.key === "Escape" && adding(false));
+  const decide = (how) => async () => {
+    by("conflict").hidden = true;
+    await how();
+    refresh();
+  };
+  const clicks = {
+    undo: () => state.undo(),
+    redo: () => state.redo(),
+    pin: () => {
+      pinned.pin(result.latest);
+      result.compare();
+      refresh();
+    },
+    gallery: () => by("examples").showModal(),
+    add: () => adding(!blade.isAdding),
+    link: () => files.copyLink(by("link")),
+    all: () => charts.zoom(null),
+    over: () => {
+      by("restored").hidden = true;
+      files.startOver();
+    },
+    write: decide(() => files.write()),
+    overwrite: decide(() => files.write()),
+    load: decide(() => files.load()),
+    print: () => print(),
+  };
+  for (const [id, then] of Object.entries(clicks)) by(id).addEventListener("click", then);
   by("pairs").addEventListener("change", (event) => (state.pairs = event.target.value));
-  by("link").addEventListener("click", () => files.copyLink(by("link")));
-  by("all").addEventListener("click", () => charts.zoom(null));
-  by("over").addEventListener("click", () => {
-    by("restored").hidden = true;
-    files.startOver();
-  });
-  by("side").addEventListener("change", compare);
+  by("side").addEventListener("change", () => result.compare());
   by("inches").addEventListener("change", (event) => measure(event.target.checked));
   by("measured").addEventListener("change", (event) => charts.showMeasured(event.target.checked));
   addEventListener("dragover", (event) => event.preventDefault());
@@ -102,14 +115,6 @@ export function toolbar({ state, files, kept, pinned, charts, blade, form, tasks
   addEventListener("beforeunload", (event) => {
     if (!files.isSaved && !kept.works) event.preventDefault();
   });
-  const decide = (how) => async () => {
-    by("conflict").hidden = true;
-    await how();
-    refresh();
-  };
-  by("write").addEventListener("click", decide(() => files.write()));
-  by("overwrite").addEventListener("click", decide(() => files.write()));
-  by("load").addEventListener("click", decide(() => files.load()));
   by("open").addEventListener("click", async (event) => {
     if (!("showOpenFilePicker" in globalThis)) return;
     // This dialog, unlike that of the input element, gives a handle by which the page can save to the file.
@@ -133,7 +138,6 @@ export function toolbar({ state, files, kept, pinned, charts, blade, form, tasks
     if (redo) state.redo();
     if (undo || redo) event.preventDefault();
   });
-  by("print").addEventListener("click", () => print());
   menu(document.querySelector(".menu"));
   return { refresh, measure: () => measure(localStorage.getItem(INCHES) === "1") };
 }

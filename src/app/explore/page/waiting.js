@@ -17,17 +17,15 @@ export class Waiting {
     this.place = place;
     this.ask = ask;
     this.words = node("span", { id: "busy", role: "status" });
-    this.bar = node("progress", { hidden: true, max: 1 });
-    this.bar.setAttribute("aria-label", "Share of this step that is done");
-    this.stop = node("button", { type: "button", id: "stop", textContent: "Stop", hidden: true });
-    this.again = node("button", { type: "button", id: "again", textContent: "Compute", hidden: true });
-    this.stop.addEventListener("click", () => {
+    this.bar = node("progress", { hidden: true, max: 1, "aria-label": "Share of this step that is done" });
+    const end = () => {
       const isStopped = onStop();
       this.#show({ isStopped });
       // This button replaces the one that was pressed.
       if (isStopped) this.again.focus();
-    });
-    this.again.addEventListener("click", onAgain);
+    };
+    this.stop = node("button", { type: "button", id: "stop", textContent: "Stop", hidden: true, onclick: end });
+    this.again = node("button", { type: "button", id: "again", textContent: "Compute", hidden: true, onclick: onAgain });
     place.append(this.words, this.bar, this.stop, this.again);
   }
 

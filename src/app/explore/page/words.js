@@ -15,8 +15,6 @@ export function shown(value, digits = 6) {
 // Returns the name of a part of the scene with this key.
 export const partName = (key) => (key === "runup" ? "run-up" : key.replaceAll("_", " "));
 
-// Returns number and name of a branch, as the program writes them.
 export const numbered = (branch, name) => (branch ? `${branch}: ${name}` : name);
 
-// Returns a Krein sign as text.
 export const krein = (sign) => (sign > 0 ? "+1" : sign < 0 ? "−1 (reflected)" : "0 (none)");
