@@ -9,7 +9,7 @@
 use faer::c64;
 
 use crate::model::scene::SpeedRange;
-use crate::modes::branches::{Branch, Campbell};
+use crate::modes::branches::{Branch, Campbell, SpeedSample};
 use crate::modes::{Mode, ModeKind, NamedMode, smallest};
 use crate::stability::band::Instability;
 use crate::stability::interpolation::Cubic;
@@ -33,20 +33,17 @@ impl RootLoci {
     pub fn new(campbell: &Campbell, band: &Instability, range: SpeedRange) -> Option<Self> {
         let width = band.range().width();
         let wide = SpeedRange::new(band.from_rad_per_s - width, band.to_rad_per_s + width);
-        let nodes = nodes(campbell, band, wide.within(range))?;
-        let (first, last) = (nodes.first()?, nodes.last()?);
+        let wide = wide.within(range);
+        let nodes = nodes(campbell, band, wide)?;
+        let known = SpeedRange::new(nodes.first()?.speed, nodes.last()?.speed);
+        let [first, last] = known.within(wide).ends();
         let peak = band.peak_rad_per_s;
         let [from, to] = band.range().ends();
-        let mut speeds: Vec<f64> = [
-            (first.speed, from),
-            (from, peak),
-            (peak, to),
-            (to, last.speed),
-        ]
-        .into_iter()
-        .flat_map(|(from, to)| denser_at_ends(from, to))
-        .chain([first.speed, peak, last.speed])
-        .collect();
+        let mut speeds: Vec<f64> = [(first, from), (from, peak), (peak, to), (to, last)]
+            .into_iter()
+            .flat_map(|(from, to)| denser_at_ends(from, to))
+            .chain([first, peak, last])
+            .collect();
         speeds.sort_by(f64::total_cmp);
         speeds.dedup();
         let at = |speed: f64| value(&nodes, speed, band.range().contains(speed));
@@ -98,14 +95,14 @@ impl Node {
     }
 }
 
-/// The pair of a band at the speeds of a chart within a range, ascending.
+/// The pair of a band at the speeds of a chart within a range and next to it, ascending.
 fn nodes(campbell: &Campbell, band: &Instability, range: SpeedRange) -> Option<Vec<Node>> {
-    let speed = |sample: usize| campbell.samples[sample].speed_rad_per_s;
-    let samples = 0..campbell.samples.len();
-    let peak = samples.clone().find(|k| speed(*k) == band.peak_rad_per_s)?;
+    let samples = &campbell.samples;
+    let is_peak = |sample: &SpeedSample| sample.speed_rad_per_s == band.peak_rad_per_s;
+    let peak = samples.iter().position(is_peak)?;
     let growing = c64::new(band.peak_growth_per_s, band.frequency_rad_per_s);
     let branch = |kind: ModeKind, lambda: c64| -> Option<&Branch> {
-        let modes = campbell.samples[peak].modes.iter().enumerate();
+        let modes = samples[peak].modes.iter().enumerate();
         let of_kind = modes.filter(|(_, named)| named.mode.kind == kind);
         let off = |(_, named): &(usize, &NamedMode)| (named.mode.lambda - lambda).norm();
         let (place, _) = smallest(of_kind, off)?;
@@ -123,14 +120,18 @@ fn nodes(campbell: &Campbell, band: &Instability, range: SpeedRange) -> Option<V
                 .ok()
                 .map(|place| &campbell.mode(branch.points[place]).mode)
         };
-        let node = Node::new(speed(sample), [of(both[0])?, of(both[1])?])?;
+        let speed = samples[sample].speed_rad_per_s;
+        let node = Node::new(speed, [of(both[0])?, of(both[1])?])?;
         let is_inside = band.range().contains(node.speed);
-        let is_wanted = range.contains(node.speed) && is_inside == (node.square[0] > 0.0);
-        is_wanted.then_some(node)
+        (is_inside == (node.square[0] > 0.0)).then_some(node)
     };
-    let mut nodes: Vec<Node> = (0..=peak).rev().map_while(node).collect();
+    // The cubics to the ends of the range need a sample at or beyond each.
+    let above = |end: f64| samples.partition_point(|sample| sample.speed_rad_per_s < end);
+    let first = above(range.from_rad_per_s).saturating_sub(1);
+    let last = above(range.to_rad_per_s).min(samples.len() - 1);
+    let mut nodes: Vec<Node> = (first..=peak).rev().map_while(node).collect();
     nodes.reverse();
-    nodes.extend((peak + 1..samples.end).map_while(node));
+    nodes.extend((peak + 1..=last).map_while(node));
     (!nodes.is_empty()).then_some(nodes)
 }
 
@@ -187,7 +188,7 @@ mod tests {
         assert_eq!(loci.speeds.last(), Some(&range.to_rad_per_s));
         assert!(loci.speeds.windows(2).all(|pair| pair[0] < pair[1]));
         let (mut beside, mut within) = (0, 0);
-        for (k, &speed) in loci.speeds.iter().enumerate().rev().step_by(7) {
+        for (k, &speed) in loci.speeds.iter().enumerate().rev().step_by(4) {
             let dense = companion_eigenpairs(&model.components[0].full, speed).unwrap();
             for (path, sign) in loci.paths.iter().zip([1.0, -1.0]) {
                 let (lambda, krein) = path[k];
@@ -206,6 +207,6 @@ mod tests {
                 );
             }
         }
-        assert!(beside >= 4 && within >= 8, "{beside} {within}");
+        assert!(beside >= 8 && within >= 8, "{beside} {within}");
     }
 }
