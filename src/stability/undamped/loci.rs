@@ -1,8 +1,8 @@
 //! The two eigenvalues of a flutter band over the speed, read off the branches of a chart.
 //!
-//! Next to its edges the mean iω of the two and the square D of half their difference are smooth,
+//! The mean M of both λ² and the square D of half their difference are smooth through the edges of the band,
 //!
-//! λ₁,₂ = iω ± √D,  D > 0 within the band,
+//! λ²₁,₂ = M ± √D,  D < 0 within the band,
 //!
 //! so that cubics by values and slopes at the speeds of the chart give both eigenvalues at any speed.
 
@@ -38,7 +38,7 @@ impl RootLoci {
         let known = SpeedRange::new(nodes.first()?.speed, nodes.last()?.speed);
         let [first, last] = known.within(wide).ends();
         let peak = band.peak_rad_per_s;
-        let [from, to] = band.range().ends();
+        let [from, to] = band.range().within(known).ends();
         let mut speeds: Vec<f64> = [(first, from), (from, peak), (peak, to), (to, last)]
             .into_iter()
             .flat_map(|(from, to)| denser_at_ends(from, to))
@@ -68,29 +68,30 @@ fn denser_at_ends(from: f64, to: f64) -> impl Iterator<Item = f64> {
 #[derive(Debug, Clone, Copy)]
 struct Node {
     speed: f64,
-    /// ω and its slope.
+    /// M and its slope.
     mean: [f64; 2],
     /// D and its slope.
     square: [f64; 2],
-    /// Whether the first of two waves has the larger frequency.
-    is_above: bool,
+    /// Whether the two are waves, and the first has the larger λ².
+    is_first_larger: bool,
 }
 
 impl Node {
     /// The pair of two modes that have coalesced, or of two waves of opposite sign, those of sign + first.
-    fn new(speed: f64, [first, second]: [&Mode; 2]) -> Option<Self> {
+    fn new(speed: f64, modes: [&Mode; 2]) -> Option<Self> {
         use ModeKind::{Decaying, Flutter, Negative, Positive};
-        let kinds = (first.kind, second.kind);
-        let half = 0.5 * (first.lambda - second.lambda);
-        let is_pair = matches!(kinds, (Flutter, Decaying) | (Positive, Negative));
-        is_pair.then(|| Node {
+        let kinds = modes.map(|mode| mode.kind);
+        if !matches!(kinds, [Flutter, Decaying] | [Positive, Negative]) {
+            return None;
+        }
+        let [first, second] = modes.map(|mode| mode.lambda * mode.lambda);
+        let slopes = modes.map(|mode| 2.0 * mode.lambda * mode.slope);
+        let half = 0.5 * (first - second);
+        Some(Node {
             speed,
-            mean: [
-                0.5 * (first.lambda + second.lambda).im,
-                0.5 * (first.slope + second.slope).im,
-            ],
-            square: [(half * half).re, (half * (first.slope - second.slope)).re],
-            is_above: half.im > 0.0,
+            mean: [0.5 * (first + second).re, 0.5 * (slopes[0] + slopes[1]).re],
+            square: [(half * half).re, (half * (slopes[0] - slopes[1])).re],
+            is_first_larger: kinds[0] == Positive && half.re > 0.0,
         })
     }
 }
@@ -123,7 +124,7 @@ fn nodes(campbell: &Campbell, band: &Instability, range: SpeedRange) -> Option<V
         let speed = samples[sample].speed_rad_per_s;
         let node = Node::new(speed, [of(both[0])?, of(both[1])?])?;
         let is_inside = band.range().contains(node.speed);
-        (is_inside == (node.square[0] > 0.0)).then_some(node)
+        (is_inside == (node.square[0] < 0.0)).then_some(node)
     };
     // The cubics to the ends of the range need a sample at or beyond each.
     let above = |end: f64| samples.partition_point(|sample| sample.speed_rad_per_s < end);
@@ -153,15 +154,16 @@ fn value(nodes: &[Node], speed: f64, is_coalesced: bool) -> [(c64, i8); 2] {
         };
         cubic.at(share)
     };
-    let mean = c64::new(0.0, at(|node| node.mean));
-    let size = at(|node| node.square).abs().sqrt();
-    let half = match (is_coalesced, if share < 0.5 { last } else { next }) {
-        (true, _) => c64::new(size, 0.0),
-        (false, node) if node.is_above => c64::new(0.0, size),
-        (false, _) => c64::new(0.0, -size),
-    };
-    let signs = if is_coalesced { [0, 0] } else { [1, -1] };
-    [(mean + half, signs[0]), (mean - half, signs[1])]
+    let mean = at(|node| node.mean);
+    let half = at(|node| node.square).abs().sqrt();
+    if is_coalesced {
+        let growing = c64::new(mean, half).sqrt();
+        return [(growing, 0), (-growing.conj(), 0)];
+    }
+    let is_first_larger = last.is_first_larger || next.is_first_larger;
+    let half = if is_first_larger { half } else { -half };
+    let wave = |square: f64| c64::new(0.0, (-square).max(0.0).sqrt());
+    [(wave(mean + half), 1), (wave(mean - half), -1)]
 }
 
 #[cfg(test)]
