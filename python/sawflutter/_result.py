@@ -183,14 +183,14 @@ class Result(Report, Entry):
 
     def __repr__(self) -> str:
         warned = "".join(f"WARNING: {warning}; " for warning in self._warnings())
-        return f"<{type(self).__name__} {self._scene['name']!r}: {warned}{self._facts()}>"
+        return f"<{type(self).__name__} {self._scene['name']!r}: {warned}{self._answer()}>"
+
+    def _answer(self) -> str:
+        return _native.answer(self._command, self._text)
 
     def _chart(self) -> Chart:
-        return self._described(self.figure_names[0].partition(".")[0], self._facts())
-
-    def _facts(self) -> str:
-        """The answer in one line."""
-        raise NotImplementedError
+        name = self.figure_names[0].partition(".")[0]
+        return self._described(name, self._answer())
 
     def _repr_html_(self) -> str:
         """The answer and the program's figure, for a notebook."""

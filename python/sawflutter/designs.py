@@ -24,9 +24,9 @@ class FitResults(Result, FitReport):
 
     _command, _rows_of, _steps = "fit", "parameters", "starts"
 
-    def _facts(self) -> str:
+    def _answer(self) -> str:
         found = ", ".join(f"{found.path} = {found.value:.4g}" for found in self.parameters)
-        return f"{found}; {self.rms_hz:.3f} Hz rms, before {self.rms_before_hz:.3f} Hz"
+        return f"{super()._answer()}: {found}; {self.rms_hz:.3f} Hz rms, before {self.rms_before_hz:.3f} Hz"
 
 
 class PlaceResults(Result, PlaceReport):
@@ -34,14 +34,6 @@ class PlaceResults(Result, PlaceReport):
     panel without a map."""
 
     _command, _rows_of, _steps = "place", "parameters", "saws"
-
-    def _facts(self) -> str:
-        found = ", ".join(f"{found.path} = {found.value:.4g}" for found in self.parameters)
-        robust = "fragile" if self.fragile else "robust"
-        kept = "" if self.kept else ", but the lower limit of the first critical speed is NOT kept"
-        goal = f"{self.best.goal_rpm:.0f} rpm, before {self.before.goal_rpm:.0f}"
-        worst = f"{1e2 * self.worst_neighbour_share:.0f} % in the worst case of its tolerances"
-        return f"{found}; {goal}, {robust}: {worst}{kept}"
 
 
 class TradeoffResults(Report):

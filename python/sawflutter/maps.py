@@ -73,13 +73,6 @@ class MapResults(Result, MapReport):
     def _speeds(self, speeds: list[float | None]) -> FloatArray:
         return np.reshape(array(speeds), self.shape)
 
-    def _facts(self) -> str:
-        over = self.x.path if self.y is None else f"{self.x.path} and {self.y.path}"
-        states = [saw.state for saw in self.saws if saw.state is not None]
-        stable = sum(state == "stable" for state in states)
-        judged = "" if self.rpm is None else f", {stable} of {len(states)} stable at {self.rpm:g} rpm"
-        return f"{len(self.saws)} saws over {over}{judged}"
-
 
 def axis(name: str, along: Along) -> tuple[str, float, float]:
     """The path of a number, and the ends of its axis in the unit of the path."""

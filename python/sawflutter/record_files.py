@@ -9,8 +9,7 @@ import numpy as np
 import numpy.typing as npt
 
 from . import _channels
-from ._channels import Channels
-from ._columns import Channel
+from ._channels import Channel, Channels
 from ._entry import FloatArray
 from ._values import Number, number
 from .errors import ArgumentError, InputError, refused

@@ -130,17 +130,6 @@ class CampbellResults(Result, CampbellReport):
     def _read(self) -> None:
         know_bands(self.branches, self.bands)
 
-    def _facts(self) -> str:
-        critical = "no critical speed"
-        flutter = f"no flutter above {self.flutter_threshold_per_s:g} 1/s"
-        if self.critical_speeds:
-            critical = f"first critical speed {self.critical_rpm[0]:.0f} rpm"
-        if self.flutter_rpm is not None:
-            flutter = f"flutter from {self.flutter_rpm:.0f} rpm"
-        first, last = self.campbell.from_rpm, self.campbell.to_rpm
-        bands = f"{len(self.bands)} bands of instability from {first:.0f} to {last:.0f} rpm"
-        return f"{critical}, {flutter}, {bands}"
-
 
 def load(path: str | os.PathLike[str]) -> Result | TradeoffResults:
     """Reads a report that the program or :meth:`Result.save` has written, of any kind; for a study

@@ -124,10 +124,3 @@ class StudyResults(Result, StudyReport):
         lost = ((self.all.refused, "refused"), (self.all.failed, "failed"))
         said = (f"{count} of {self.all.saws} saws {word}; the table says why" for count, word in lost if count)
         return (*super()._warnings(), *said)
-
-    def _facts(self) -> str:
-        passing = self.all.passing
-        kept = "" if passing is None else f", {1e2 * passing.probability:.2f} % keep the limits"
-        lost = ((self.all.refused, "refused"), (self.all.failed, "failed"))
-        said = "".join(f", {count} {word}" for count, word in lost if count)
-        return f"{self.all.saws} saws{said}{kept}"
