@@ -13,7 +13,6 @@ from .results import CampbellResults
 from .scene import Scene, _scene
 
 
-
 class CompareResults(Result, CompareReport):
     """Comparison of several saws: critical speeds, flutter, bands, stiffness at the rim, and the
     differences between their scenes. Its chart overlays their Campbell diagrams."""

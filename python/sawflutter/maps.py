@@ -43,13 +43,8 @@ class MapResults(Result, MapReport):
         return self._speeds([saw.flutter_rpm for saw in self.saws])
 
     def to_xarray(self) -> xr.Dataset:
-        """The map as labelled arrays over its numbers; needs xarray.
-
-        Returns
-        -------
-        xarray.Dataset
-            ``lowest_critical_rpm``, ``flutter_rpm`` and ``state`` over the paths of the axes.
-        """
+        """The map as labelled arrays, ``lowest_critical_rpm``, ``flutter_rpm`` and ``state``, over the
+        paths of the axes; needs xarray."""
         with extra("xarray"):
             import xarray as xr
 

@@ -23,7 +23,7 @@ class RunUpResults(Result, RunUpReport):
 
     _command, _steps = "runup", "steps"
 
-    def _rows(self) -> pd.DataFrame:
+    def to_dataframe(self) -> pd.DataFrame:
         return frame({"rpm": self.rpm, "deflection_m": self.deflection_m})
 
 
@@ -32,7 +32,7 @@ class DeflectResults(Result, DeflectReport):
 
     _command, _steps = "deflect", "equilibria"
 
-    def _rows(self) -> pd.DataFrame:
+    def to_dataframe(self) -> pd.DataFrame:
         names = ("rpm", "deflection_m", "largest_deflection_m", "largest_slope")
         rows = [
             {"direction": direction, "arc": number, **dict(zip(names, point))}
@@ -48,7 +48,7 @@ class ResponseResults(Result, ResponseReport):
 
     _command = "response"
 
-    def _rows(self) -> pd.DataFrame:
+    def to_dataframe(self) -> pd.DataFrame:
         columns = {line.name: line.amplitude_m for line in self.lines}
         table = {"rpm": self.rpm, **columns, "board_deviation_m": self.board_deviation_m}
         return frame([dict(zip(table, row)) for row in zip(*table.values())])
@@ -59,7 +59,7 @@ class GapResults(Result, GapReport):
 
     _command, _steps = "gap", "amplitudes"
 
-    def _rows(self) -> pd.DataFrame:
+    def to_dataframe(self) -> pd.DataFrame:
         found = self.deviation
         rows = [
             {"gap_factor": factor, "force_n": force, "deflection_m": at, "largest_deflection_m": most}

@@ -46,17 +46,7 @@ mod _native {
     #[pymodule_export]
     use super::values::{magnitude, number, plain};
     #[pymodule_export]
-    use super::{
-        calls, columns, keys, outlines, panic, paper, program, read_scene, read_text, schema,
-    };
-}
-
-/// Corners of the guides of a scene in metres, each as x and y.
-#[pyfunction]
-fn outlines(text: &str) -> PyResult<Vec<Vec<[f64; 2]>>> {
-    let scene = arguments::scene(text)?;
-    let guides = scene.file().guides.iter();
-    Ok(guides.map(|guide| guide.outline_m()).collect())
+    use super::{calls, columns, keys, panic, paper, program, read_scene, read_text, schema};
 }
 
 /// The scene that comes with the program.
