@@ -11,8 +11,7 @@ from typing import Any, TypeVar
 
 import numpy as np
 
-from . import _columns
-from ._columns import Channel
+from . import _native
 from ._entry import ComplexArray, FloatArray
 from ._extras import extra
 from .errors import InputError, refused
@@ -24,9 +23,24 @@ T = TypeVar("T")
 _UNEVEN = 0.3
 _TIMES = {"t", "time", "zeit", "temps", "tiempo", "tid"}
 _SECONDS = {"": 1.0, "s": 1.0, "sec": 1.0, "ms": 1e-3, "us": 1e-6, "µs": 1e-6}
+_SPEEDS = {"rpm", "speed", "drehzahl", "n", "vitesse", "varvtal"}
+_PER_MINUTE = {"rpm", "1/min", "min-1", "min^-1", "min⁻¹", "u/min", "r/min", "rev/min", "tr/min"}
 # Numbers of a data set 58 of a universal file.
 _TIME_RESPONSE, _RESPONSE_FUNCTION, _GENERAL = 1, 4, 0
 _OF_RPM = 19
+
+
+@dataclass(frozen=True)
+class Channel:
+    """Samples with a name and a unit, which may be blank."""
+
+    name: str
+    unit: str
+    samples: FloatArray
+
+    def is_speed(self) -> bool:
+        """Whether it is a rotation speed in rpm, by its unit, or without one by its name."""
+        return self.unit.lower() in _PER_MINUTE or (not self.unit and self.name.lower() in _SPEEDS)
 
 
 @dataclass(frozen=True)
@@ -106,8 +120,13 @@ def _wav(path: str | os.PathLike[str]) -> Channels:
     return Channels(str(path), float(rate), tuple(channels))
 
 
+def _columns(path: str | os.PathLike[str]) -> list[Channel]:
+    """The columns of a table."""
+    return [Channel(name, unit, np.frombuffer(of, "<f8")) for name, unit, of in _native.columns(path)]
+
+
 def _table(path: str | os.PathLike[str]) -> Channels:
-    columns = _columns.read(path)
+    columns = _columns(path)
     times = [column for column in columns if column.name.lower() in _TIMES]
     others = tuple(column for column in columns if column.name.lower() not in _TIMES)
     if len(times) > 1:
@@ -134,7 +153,7 @@ def _rate(path: str | os.PathLike[str], times: FloatArray) -> float:
 
 
 def _table_of_response(path: str | os.PathLike[str]) -> list[ResponseFunction]:
-    columns = _columns.read(path)
+    columns = _columns(path)
     if len(columns) not in (2, 3):
         raise InputError(
             f"{path} has {len(columns)} columns, but a frequency response has 3, frequency in Hz, "

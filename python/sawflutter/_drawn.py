@@ -17,16 +17,11 @@ Units: TypeAlias = Literal["rpm", "Hz", "rad/s"]
 
 
 class Look(TypedDict, total=False):
-    """The arguments of all figures, for either library."""
+    """The arguments of all figures, for either library; see :meth:`Drawn.plot`."""
 
     speed_units: Units
-    """Units of rotation speeds; rpm by default."""
-
     frequency_units: Units
-    """Units of frequencies; Hz by default."""
-
     harmonics: Iterable[Number]
-    """Multiples of the rotation speed that are drawn as lines over the frequencies."""
 
 
 class Drawn:
@@ -36,9 +31,12 @@ class Drawn:
 
     def chart(self) -> Chart:
         """Contents of the figure as lines, points and bands."""
-        return self._chart()
+        from .plot.described import read
 
-    def _chart(self) -> Chart:
+        return read(self._drawing())
+
+    def _drawing(self) -> str:
+        """The chart as the program describes it, in JSON."""
         raise NotImplementedError
 
     def plot(self, fig: Figure | None = None, **look: Unpack[Look]) -> Figure:
@@ -65,21 +63,8 @@ class Drawn:
     def plot_matplotlib(
         self, ax: Axes | Sequence[Axes] | None = None, **look: Unpack[Look]
     ) -> Axes:
-        """Draws the chart with matplotlib.
-
-        Parameters
-        ----------
-        ax : Axes or sequence of Axes, optional
-            Axes to draw the first panel into, or axes for several panels. By default a new figure
-            with all panels.
-        speed_units, frequency_units, harmonics : optional
-            As in :meth:`plot`.
-
-        Returns
-        -------
-        matplotlib.axes.Axes
-            Axes of the first panel.
-        """
+        """Draws the chart with matplotlib as :meth:`plot` does with plotly, and gives the axes of its first
+        panel. ``ax`` are axes to draw the first panel into, or axes for several panels."""
         from .plot import with_matplotlib
         from .plot.look import looking
 

@@ -39,7 +39,7 @@ def entries(of: Iterable[Any]) -> pd.DataFrame:
     return frame([{k: v for k, v in vars(entry).items() if isinstance(v, plain)} for entry in of])
 
 
-def read(text: str) -> pd.DataFrame:
+def csv_frame(text: str) -> pd.DataFrame:
     """A table that the library has written, with every number exact to the last bit: some versions
     of pandas need an argument for this that others refuse."""
     names, *rows = csv.reader(io.StringIO(text))

@@ -9,7 +9,7 @@ import numpy as np
 import numpy.typing as npt
 
 from ._entry import ComplexArray, Entry, FloatArray
-from ._values import Number, number, numbers
+from ._values import Number, numbers
 
 if TYPE_CHECKING:
     from ._report_types import Branch, Instability, Shape, Wave
@@ -25,20 +25,8 @@ class RestModeMethods(Entry):
         profiles: tuple[Shape, ...]
 
     def shape(self, radius_m: npt.ArrayLike, angle_deg: npt.ArrayLike) -> FloatArray:
-        """Deflection at points of the blade, normalized to a maximum of one.
-
-        Parameters
-        ----------
-        radius_m, angle_deg : array_like
-            Distances from the axis and angles from the cut, positive with the rotation; they are
-            broadcast against each other.
-
-        Returns
-        -------
-        ndarray of float, of the broadcast shape
-            NaN off the blade.
-        """
-        radius, theta = points(numbers("radius_m", radius_m), np.radians(numbers("angle_deg", angle_deg)))
+        """Deflection at ``radius_m`` and ``angle_deg`` as in :meth:`Mode.shape`, with a maximum of one."""
+        radius, theta = points(radius_m, angle_deg)
         total = np.zeros(radius.shape)
         for part in self.profiles:
             n = part.nodal_diameters
@@ -57,34 +45,16 @@ class ModeMethods(Entry):
         harmonics: tuple[Wave, ...]
 
     def shape(self, radius_m: npt.ArrayLike, angle_deg: npt.ArrayLike) -> ComplexArray:
-        """Complex deflection in the fixed frame; the real part of its product with e^(iωt) is the
-        motion.
+        """Complex deflection in the fixed frame, of any scale, NaN off the blade; the real part of its
+        product with e^(iωt) is the motion.
 
         Parameters
         ----------
         radius_m, angle_deg : array_like
             Distances from the axis and angles from the cut, positive with the rotation; they are
             broadcast against each other.
-
-        Returns
-        -------
-        ndarray of complex, of the broadcast shape
-            NaN off the blade. The scale is arbitrary.
-
-        Examples
-        --------
-        A reflected wave turns with the rotation: a quarter of a period later, the deflection is
-        the same further on.
-
-        >>> import numpy as np
-        >>> import sawflutter as sf
-        >>> mode = sf.Scene.paper().replace({"accuracy": "draft"}).modes(rpm=1800)[0]
-        >>> mode.name, mode.direction
-        ('2 diameters', 'reflected')
-        >>> mode.shape(0.3, np.linspace(0, 180, 4)).shape
-        (4,)
         """
-        radius, theta = points(numbers("radius_m", radius_m), np.radians(numbers("angle_deg", angle_deg)))
+        radius, theta = points(radius_m, angle_deg)
         total = np.zeros(radius.shape, complex)
         for wave in self.harmonics:
             n = wave.nodal_diameters
@@ -97,21 +67,9 @@ class ModeMethods(Entry):
     def deflection(
         self, radius_m: npt.ArrayLike, angle_deg: npt.ArrayLike, time_s: Number
     ) -> FloatArray:
-        """Real deflection at a time, without growth: Re(shape · e^(iωt)).
-
-        Parameters
-        ----------
-        radius_m, angle_deg : array_like
-            Points of the blade, as in :meth:`shape`.
-        time_s : float
-            The time.
-
-        Returns
-        -------
-        ndarray of float
-            Of the broadcast shape; NaN off the blade.
-        """
-        turned = self.shape(radius_m, angle_deg) * np.exp(2j * np.pi * self.frequency_hz * number("time_s", time_s))
+        """Real deflection at ``radius_m`` and ``angle_deg`` as in :meth:`shape`, at ``time_s`` and
+        without growth: Re(shape · e^(iωt))."""
+        turned = self.shape(radius_m, angle_deg) * np.exp(2j * np.pi * self.frequency_hz * numbers("time_s", time_s))
         return np.asarray(turned.real)
 
 
@@ -127,14 +85,12 @@ class BranchMethods(Entry):
     _edges: tuple[tuple[float, int], ...] = ()
 
     def at(self, rpm: Any) -> tuple[Any, Any]:
-        """Frequency in Hz and growth rate in 1/s at given speeds, by monotone cubics between those
-        of the report. At the edges of the bands in which the branch grows the growth rate is zero,
-        and its square is smooth. :meth:`Scene.modes` gives modes without interpolation.
-
-        Parameters
-        ----------
-        rpm : float or array_like
-            Speeds; the result is NaN before the first and past the last speed of the branch.
+        """Frequency in Hz and growth rate in 1/s at speeds, by monotone cubics between those of the
+        report, and NaN outside them. At the edges of the bands in which the branch grows the growth
+        rate is zero, and its square is smooth. Of the built-in saw, damped or in its cut, 99 of 100
+        values are within 0.06 Hz and 0.1 1/s of the modes, of lines within 0.14 Hz and 0.6 1/s; where
+        modes of a saw with material damping merge, the errors are larger. :meth:`Scene.modes` gives
+        modes without interpolation.
 
         Examples
         --------
@@ -176,10 +132,10 @@ def know_bands(branches: Sequence[Branch], bands: Iterable[Instability]) -> None
             object.__setattr__(branch, "_edges", (*branch._edges, *edges))
 
 
-def points(radius_m: npt.ArrayLike, angle: npt.ArrayLike) -> tuple[FloatArray, FloatArray]:
-    """Points of the blade, broadcast against each other."""
-    radius, angle = np.broadcast_arrays(np.asarray(radius_m, float), np.asarray(angle, float))
-    return radius, angle
+def points(radius_m: npt.ArrayLike, angle_deg: npt.ArrayLike) -> tuple[FloatArray, FloatArray]:
+    """Points of the blade, broadcast against each other; the angles in radians."""
+    radius, angle = np.broadcast_arrays(numbers("radius_m", radius_m), numbers("angle_deg", angle_deg))
+    return radius, np.radians(angle)
 
 
 def _between(at: Any, places: FloatArray, values: FloatArray, curve: Any = np.interp) -> FloatArray:

@@ -23,15 +23,15 @@ def lowest_hz(resolution_hz: float) -> float:
     return 2.0 * resolution_hz
 
 
-def rows(
+def peak_rows(
     frequency_hz: FloatArray,
     spectra: Iterable[tuple[float, FloatArray]],
     resolution_hz: float,
     orders: Iterable[Number],
     above_db: Number,
 ) -> list[tuple[float, float, float, float, int]]:
-    """Rows of :meth:`sawflutter.Peaks.of` for spectra at speeds. The order of a peak is the multiple
-    of the speed that is so near that it is, or shifts, the peak; NaN if none is."""
+    """Speed, frequency, amplitude, order and number of the spectrum of each peak. The order is the
+    multiple of the speed that is so near that it is, or shifts, the peak; NaN if none is."""
     multiples = np.array([number("orders", order) for order in orders])
     found = list[tuple[float, float, float, float, int]]()
     for place, (rpm, amplitude) in enumerate(spectra):

@@ -17,11 +17,10 @@ Native: TypeAlias = "Callable[[int, int, str], object] | None"
 
 @contextmanager
 def reporting(progress: Progress, what: str) -> Iterator[Native]:
-    """The function that the compiled part calls; a bar is closed at the end. Within a phase the
-    number of finished steps never falls, and a bar names the phase."""
+    """The function that the compiled part calls; a bar names the phase and is closed at the end."""
     if callable(progress):
         told = progress
-        yield _rising(lambda done, of, _: told(done, of))
+        yield lambda done, of, _: told(done, of)
     elif progress:
         with _bar(what) as bar:
             shown = [(what, 0)]
@@ -34,23 +33,9 @@ def reporting(progress: Progress, what: str) -> Iterator[Native]:
                 bar.n = done
                 bar.set_description(step or what)
 
-            yield _rising(show)
+            yield show
     else:
         yield None
-
-
-def _rising(tell: Callable[[int, int, str], object]) -> Callable[[int, int, str], object]:
-    """Leaves out what would run back within a phase: steps end in any order on several threads."""
-    last = [("", 0, 0)]
-
-    def told(done: int, of: int, step: str) -> None:
-        phase, total, before = last[0]
-        if (step, of) == (phase, total) and done < before:
-            return
-        last[0] = (step, of, done)
-        tell(done, of, step)
-
-    return told
 
 
 class _Line:

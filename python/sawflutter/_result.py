@@ -13,11 +13,12 @@ from ._drawn import Drawn
 from ._entry import Entry
 from ._extras import entries
 from .errors import InputError, refused
+from .plot.chart import Chart
+from .plot.described import read
 
 if TYPE_CHECKING:
     import pandas as pd
 
-    from .plot.chart import Chart
     from .scene import Scene
 
 R = TypeVar("R", bound="Result")
@@ -55,9 +56,6 @@ class Report(Drawn):
         slow sweep for each stable equilibrium, without its frequencies; guides with a gap for each
         ``gap_factor`` and ``force_n``, with the deflections at the cut.
         """
-        return self._rows()
-
-    def _rows(self) -> pd.DataFrame:
         return entries(getattr(self, self._rows_of))
 
     def __eq__(self, other: object) -> bool:
@@ -132,14 +130,9 @@ class Result(Report, Entry):
         return _native.picture(self._command, name, self._text)
 
     def save(self, path: str | os.PathLike[str]) -> None:
-        """Writes a file, the same bytes as the program, by the ending of its name.
-
-        Parameters
-        ----------
-        path : str or path
-            .html writes one self-contained page: verdict, inputs, tables, figures, warnings,
-            certificate; .csv the table of a Campbell diagram; any other ending the report as JSON,
-            which :func:`sawflutter.load` reads.
+        """Writes a file, the same bytes as the program, by the ending of its name: .html one
+        self-contained page with verdict, inputs, tables, figures, warnings and certificate; .csv the
+        table of a Campbell diagram; any other the report as JSON, which :func:`sawflutter.load` reads.
         """
         place = Path(path)
         place.write_bytes(self._content(place.suffix.lower()).encode())
@@ -155,42 +148,26 @@ class Result(Report, Entry):
         return self._text
 
     def chart(self, name: str | None = None) -> Chart:
-        """The figure of the program as numbers; its ``plot()`` and ``plot_matplotlib()`` draw it.
-
-        Parameters
-        ----------
-        name : str, optional
-            One of :attr:`figure_names` without its ending, such as ``"root-loci"``,
-            ``"sensitivity"``, ``"response-map"`` or ``"cut-map"``; by default the first of them. A
-            chart for which the report has no data has no panels.
-        """
+        """The figure of the program as numbers, by its ``name``, one of :attr:`figure_names` without its
+        ending, such as ``"root-loci"`` or ``"cut-map"``, by default the first. Its ``plot()`` and
+        ``plot_matplotlib()`` draw it. A chart for which the report has no data has no panels."""
         own = list(dict.fromkeys(name.partition(".")[0] for name in self.figure_names))
         if name is not None and name not in own:
             raise refused("name", name, f"one of {', '.join(own)}", "leave it out for the first of them")
-        return self._chart() if name is None else self._described(name, _MISSING.get(name, ""))
-
-    def _described(self, name: str, otherwise: str = "") -> Chart:
-        """The chart of a figure of the program; if the report has no data for it, a chart without
-        panels whose facts are ``otherwise``."""
-        from .plot.chart import Chart
-        from .plot.described import described
-
-        chart = described(self._command, name, self._text)
-        return Chart(self._scene["name"], otherwise) if chart is None else chart
+        text = _native.chart(self._command, name or own[0], self._text)
+        if text is not None:
+            return read(text)
+        return Chart(self._scene["name"], self._answer() if name is None else _MISSING.get(name, ""))
 
     def __reduce__(self) -> tuple[Any, ...]:
         return type(self)._from_json, (self._text,)
 
     def __repr__(self) -> str:
         warned = "".join(f"WARNING: {warning}; " for warning in self._warnings())
-        return f"<{type(self).__name__} {self._scene['name']!r}: {warned}{self._facts()}>"
+        return f"<{type(self).__name__} {self._scene['name']!r}: {warned}{self._answer()}>"
 
-    def _chart(self) -> Chart:
-        return self._described(self.figure_names[0].partition(".")[0], self._facts())
-
-    def _facts(self) -> str:
-        """The answer in one line."""
-        raise NotImplementedError
+    def _answer(self) -> str:
+        return _native.answer(self._command, self._text)
 
     def _repr_html_(self) -> str:
         """The answer and the program's figure, for a notebook."""

@@ -13,27 +13,19 @@ from .results import CampbellResults
 from .scene import Scene, _scene
 
 
-
 class CompareResults(Result, CompareReport):
     """Comparison of several saws: critical speeds, flutter, bands, stiffness at the rim, and the
     differences between their scenes. Its chart overlays their Campbell diagrams."""
 
     _command, _rows_of = "compare", "saws"
 
+    def _answer(self) -> str:
+        speeds = ((saw.label, saw.flutter_rpm) for saw in self.saws)
+        found = ((label, "no flutter" if rpm is None else f"flutter from {rpm:.0f} rpm") for label, rpm in speeds)
+        return "; ".join(f"{label}: {said}" for label, said in found)
+
     def _warnings(self) -> tuple[str, ...]:
         return tuple(f"{saw.label}: {text}" for saw in self.saws for text in saw.warnings)
-
-    def _facts(self) -> str:
-        def lowest(speeds: Iterable[float]) -> str:
-            return next((f"{rpm:.0f} rpm" for rpm in speeds), "none")
-
-        parts = []
-        for saw in self.saws:
-            critical = lowest(entry.rpm for entry in saw.critical_speeds)
-            flutter = saw.flutter_rpm
-            from_rpm = "no flutter" if flutter is None else f"flutter from {flutter:.0f} rpm"
-            parts.append(f"{saw.label}: first critical speed {critical}, {from_rpm}")
-        return "; ".join(parts)
 
 
 def compare(

@@ -4,19 +4,15 @@ speeds over the stiffness of the guides."""
 from __future__ import annotations
 
 import json
-from collections.abc import Iterable
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from . import _native
 from ._drawn import Drawn
-from ._entry import Entry, FloatArray, array
+from ._entry import Entry, FloatArray
 from ._report_types import FitReport, Instability, PlaceReport, Setting
 from ._result import Report, Result
 from ._values import Number, number
-
-if TYPE_CHECKING:
-    from .plot.chart import Chart
 
 
 class FitResults(Result, FitReport):
@@ -24,9 +20,9 @@ class FitResults(Result, FitReport):
 
     _command, _rows_of, _steps = "fit", "parameters", "starts"
 
-    def _facts(self) -> str:
+    def _answer(self) -> str:
         found = ", ".join(f"{found.path} = {found.value:.4g}" for found in self.parameters)
-        return f"{found}; {self.rms_hz:.3f} Hz rms, before {self.rms_before_hz:.3f} Hz"
+        return f"{super()._answer()}: {found}; {self.rms_hz:.3f} Hz rms, before {self.rms_before_hz:.3f} Hz"
 
 
 class PlaceResults(Result, PlaceReport):
@@ -35,28 +31,15 @@ class PlaceResults(Result, PlaceReport):
 
     _command, _rows_of, _steps = "place", "parameters", "saws"
 
-    def _facts(self) -> str:
-        found = ", ".join(f"{found.path} = {found.value:.4g}" for found in self.parameters)
-        robust = "fragile" if self.fragile else "robust"
-        kept = "" if self.kept else ", but the lower limit of the first critical speed is NOT kept"
-        goal = f"{self.best.goal_rpm:.0f} rpm, before {self.before.goal_rpm:.0f}"
-        worst = f"{1e2 * self.worst_neighbour_share:.0f} % in the worst case of its tolerances"
-        return f"{found}; {goal}, {robust}: {worst}{kept}"
-
 
 class TradeoffResults(Report):
     """Computing time against true error, for bases of several sizes."""
 
     _rows_of = "settings"
 
-    def __init__(self, settings: Iterable[Setting], text: str, name: str) -> None:
-        self.settings: tuple[Setting, ...] = tuple(settings)
-        self.name = name
-        self._text = text
-
-    @classmethod
-    def _from_json(cls, text: str, name: str = "") -> TradeoffResults:
-        return cls((Setting._from_dict(setting) for setting in json.loads(text)), text, name)
+    def __init__(self, text: str, name: str = "") -> None:
+        self.settings: tuple[Setting, ...] = tuple(map(Setting._from_dict, json.loads(text)))
+        self.name, self._text = name, text
 
     def recommended(self, error: Number) -> Setting | None:
         """The fastest chart whose true relative error is at most ``error``; None if no chart reaches
@@ -65,13 +48,11 @@ class TradeoffResults(Report):
         charts = [s for s in self.settings if s.speeds > 0 and s.error <= error]
         return min(charts, key=lambda setting: setting.seconds, default=None)
 
-    def _chart(self) -> Chart:
-        from .plot.described import read
-
-        return read(_native.tradeoff_chart(self.name, self._text))
+    def _drawing(self) -> str:
+        return _native.tradeoff_chart(self.name, self._text)
 
     def __reduce__(self) -> tuple[Any, tuple[str, str]]:
-        return TradeoffResults._from_json, (self._text, self.name)
+        return TradeoffResults, (self._text, self.name)
 
     def __repr__(self) -> str:
         return f"<TradeoffResults {self.name!r}: {len(self.settings)} settings>"
@@ -96,10 +77,8 @@ class StiffnessMap(Drawn, Entry):
     critical_rpm: FloatArray
     flutter_rpm: FloatArray
 
-    def _chart(self) -> Chart:
-        from .plot.described import read
-
-        return read(_native.stiffness_chart(self))
+    def _drawing(self) -> str:
+        return _native.stiffness_chart(self)
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -124,14 +103,6 @@ class Speeds(Entry):
     flutter_rpm: float | None
     bands: tuple[Instability, ...]
     estimated_relative_error: float
-
-    @classmethod
-    def _of(cls, name: str, found: dict[str, Any], to_rpm: float) -> Speeds:
-        """The speeds of a saw as in the log of a study."""
-        bands = tuple(map(Instability._from_dict, found["bands"]))
-        critical = array([rpm for rpm in found["critical_rpm"] if rpm <= to_rpm])
-        lowest, flutter = found["lowest_critical_rpm"], found["flutter_rpm"]
-        return cls(name, to_rpm, critical, lowest, flutter, bands, found["estimated_relative_error"])
 
     def __repr__(self) -> str:
         critical, flutter = (

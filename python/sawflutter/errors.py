@@ -16,19 +16,9 @@ from collections.abc import Iterable
 
 
 class InputError(ValueError):
-    """Input that was refused.
-
-    Attributes
-    ----------
-    key : str or None
-        JSON path of the invalid number, or name of the invalid argument.
-    value : str or None
-        The given value.
-    allowed : str or None
-        Allowed values.
-    remedy : str or None
-        Advice.
-    """
+    """Input that was refused: :attr:`key` is the path of the number in the scene, or the name of the
+    argument, :attr:`value` what was given, :attr:`allowed` what is allowed, and :attr:`remedy` advice;
+    each is a text or None."""
 
     def __init__(
         self,

@@ -43,13 +43,8 @@ class MapResults(Result, MapReport):
         return self._speeds([saw.flutter_rpm for saw in self.saws])
 
     def to_xarray(self) -> xr.Dataset:
-        """The map as labelled arrays over its numbers; needs xarray.
-
-        Returns
-        -------
-        xarray.Dataset
-            ``lowest_critical_rpm``, ``flutter_rpm`` and ``state`` over the paths of the axes.
-        """
+        """The map as labelled arrays, ``lowest_critical_rpm``, ``flutter_rpm`` and ``state``, over the
+        paths of the axes; needs xarray."""
         with extra("xarray"):
             import xarray as xr
 
@@ -72,13 +67,6 @@ class MapResults(Result, MapReport):
 
     def _speeds(self, speeds: list[float | None]) -> FloatArray:
         return np.reshape(array(speeds), self.shape)
-
-    def _facts(self) -> str:
-        over = self.x.path if self.y is None else f"{self.x.path} and {self.y.path}"
-        states = [saw.state for saw in self.saws if saw.state is not None]
-        stable = sum(state == "stable" for state in states)
-        judged = "" if self.rpm is None else f", {stable} of {len(states)} stable at {self.rpm:g} rpm"
-        return f"{len(self.saws)} saws over {over}{judged}"
 
 
 def axis(name: str, along: Along) -> tuple[str, float, float]:

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field
-from typing import Any, SupportsIndex
 
 import numpy as np
 import numpy.typing as npt
@@ -45,15 +44,6 @@ class Matrices(Entry):
     radial_functions: int
     _scene: str = field(default="", repr=False)
 
-    @classmethod
-    def _of(cls, scene: str, basis: tuple[SupportsIndex, SupportsIndex] | None) -> Matrices:
-        """The matrices of a scene as JSON, in a basis or in that of its accuracy."""
-        found, diameters, functions = _native.matrices(scene, basis=basis)
-        arrays: dict[str, Any] = {"damping": None, "circulatory": None}
-        for name, values in found.items():
-            arrays[name] = np.frombuffer(values, "<f8").reshape((2 * diameters + 1) * functions, -1)
-        return cls(**arrays, max_diameters=diameters, radial_functions=functions, _scene=scene)
-
     @property
     def mass(self) -> FloatArray:
         """The mass matrix M, which is the identity."""
@@ -62,8 +52,8 @@ class Matrices(Entry):
         return one
 
     def at(self, radius_m: npt.ArrayLike, angle_deg: npt.ArrayLike) -> FloatArray:
-        """Basis functions φ at points of the blade fixed in space. The deflection there is w = φᵀ
-        q, and a force F there is f = F φ. The receptance between two points at Ω and ω is φ₁ᵀ (K +
+        """Basis functions φ in 1/√kg at points of the blade fixed in space, along the last axis. The
+        deflection there is w = φᵀ q, and a force F there is f = F φ. The receptance between two points at Ω and ω is φ₁ᵀ (K +
         Ω² S + Ω N − ω² + iω (2 Ω G + C))⁻¹ φ₂.
 
         Parameters
@@ -71,11 +61,6 @@ class Matrices(Entry):
         radius_m, angle_deg : array_like
             Distances from the axis and angles from the cut, positive with the rotation; they are
             broadcast against each other.
-
-        Returns
-        -------
-        ndarray of float
-            In 1/√kg, of the broadcast shape with the functions as its last axis.
 
         Examples
         --------
@@ -88,7 +73,7 @@ class Matrices(Entry):
         >>> print(f"{1e6 * rim @ np.linalg.solve(m.stiffness, rim):.0f} µm")
         290 µm
         """
-        radius, angle = points(numbers("radius_m", radius_m), np.radians(numbers("angle_deg", angle_deg)))
+        radius, angle = points(radius_m, angle_deg)
         basis = (self.max_diameters, self.radial_functions)
         found = _native.functions_at(
             self._scene, basis, *(at.ravel().tolist() for at in (radius, angle))
@@ -129,32 +114,20 @@ class Matrices(Entry):
             Points at which deflections are read.
         to_hz : float, optional
             Keeps the modes up to this frequency, see :meth:`StateSpace.reduced`; all by default.
-
-        Examples
-        --------
-        >>> import sawflutter as sf
-        >>> m = sf.Scene.paper().matrices(basis=(8, 5))
-        >>> m.state_space(1000, inputs=[(0.355, 0)], outputs=[(0.355, 0), (0.3, 90)])
-        <StateSpace at 1000 rpm: 170 states, 1 inputs, 2 outputs>
         """
         forces, probes = (self._at_points(*pair) for pair in (("inputs", inputs), ("outputs", outputs)))
-        whole = StateSpace._of(number("rpm", rpm), self.companion(rpm), forces, probes)
-        return whole if to_hz is None else whole.reduced(to_hz)
+        size = len(self.stiffness)
+        b = np.vstack([np.zeros((size, len(forces))), forces.T])
+        c = np.hstack([probes, np.zeros((len(probes), size))])
+        space = StateSpace(number("rpm", rpm), self.companion(rpm), b, c, np.zeros((len(probes), len(forces))))
+        return space if to_hz is None else space.reduced(to_hz)
 
     def response(
         self, rpm: Number, frequency_hz: npt.ArrayLike, *, inputs: npt.ArrayLike, outputs: npt.ArrayLike
     ) -> ComplexArray:
-        """Deflections in m at points for forces of one newton at others, at a speed and at
-        frequencies: their size and phase.
-
-        Parameters
-        ----------
-        rpm, inputs, outputs
-            As in :meth:`state_space`.
-        frequency_hz : array_like
-            Frequencies in space. The result has their shape, with outputs and inputs as its last
-            axes.
-        """
+        """Deflections at points for forces of one newton at others, at a speed and at frequencies: the
+        :meth:`StateSpace.response` to ``frequency_hz``, with ``rpm``, ``inputs`` and ``outputs`` of
+        :meth:`state_space`."""
         return self.state_space(rpm, inputs=inputs, outputs=outputs).response(frequency_hz)
 
     def run_time_response(
@@ -174,10 +147,8 @@ class Matrices(Entry):
         ----------
         rpm, inputs, outputs, to_hz
             As in :meth:`state_space`.
-        forces_n : array_like
-            Forces at each time, of the shape (times, inputs).
-        times_s : array_like
-            Ascending times at even steps.
+        forces_n, times_s
+            As in :meth:`StateSpace.time_response`.
         """
         space = self.state_space(rpm, inputs=inputs, outputs=outputs, to_hz=to_hz)
         return space.time_response(forces_n, times_s)

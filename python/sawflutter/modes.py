@@ -74,17 +74,14 @@ class Modes(Entry, Generic[T]):
     def to_dataframe(self) -> pd.DataFrame:
         """One row for each speed and mode with speed, frequency, growth rate, Krein sign,
         direction and the dominant number of nodal diameters; needs pandas."""
-        modes = list(self._all())
+        modes = self._all()
         table = entries(modes)
         table["nodal_diameters"] = [mode.harmonics[0].nodal_diameters for mode in modes]
         return table
 
-    def _all(self) -> Iterator[Mode]:
-        for at in self.modes:
-            if isinstance(at, Mode):
-                yield at
-            elif isinstance(at, tuple):
-                yield from at
+    def _all(self) -> list[Mode]:
+        rows: Any = self.modes
+        return [mode for at in rows for mode in at] if self.rpm.ndim else list(rows)
 
     def __repr__(self) -> str:
         hz = self.frequency_hz
@@ -92,11 +89,11 @@ class Modes(Entry, Generic[T]):
         ends = f"{speeds.min():g} to {speeds.max():g}" if speeds.size else "no"
         at = f"{len(speeds)} speeds, {ends}" if self.rpm.ndim else f"{self.rpm:g}"
         span = "none" if not hz.size else f"{np.nanmin(hz):.4g} to {np.nanmax(hz):.4g} Hz"
-        return f"<Modes at {at} rpm: {sum(1 for _ in self._all())}, {span}, complete to {self.complete_to_hz:.4g} Hz>"
+        return f"<Modes at {at} rpm: {len(self._all())}, {span}, complete to {self.complete_to_hz:.4g} Hz>"
 
     def _repr_html_(self) -> str:
         """The lowest modes as a table, for a notebook."""
-        rows = list(self._all())
+        rows = self._all()
         head = "".join(f"<th>{name}</th>" for name in ("rpm", "frequency", "growth", "mode", "direction"))
         body = "".join(
             f"<tr><td>{m.rpm:.0f}</td><td>{m.frequency_hz:.2f} Hz</td><td>{m.growth_per_s:.3g} 1/s</td>"

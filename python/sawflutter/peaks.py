@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -13,6 +13,7 @@ import numpy as np
 from ._entry import Entry, FloatArray, IntArray, array
 from ._extras import extra, frame
 from ._measured import lines
+from ._picking import peak_rows
 from ._values import Number, number
 from .errors import ArgumentError, refused
 
@@ -20,6 +21,8 @@ if TYPE_CHECKING:
     import pandas as pd
 
     from .scene import Scene
+    from .spectra import Spectrum
+    from .waterfalls import Waterfall
 
 # The windows of rows for a fit do not overlap within so many standard deviations of each other's
 # middle, so that their errors are independent.
@@ -57,19 +60,20 @@ class Peaks(Entry):
     name: str
 
     @classmethod
-    def _of(
+    def _picked(
         cls,
-        rows: Sequence[tuple[float, float, float, float, int]],
-        resolution_hz: float,
+        of: Spectrum | Waterfall,
         hop: float,
-        unit: str,
-        name: str,
+        spectra: Iterable[tuple[float, FloatArray]],
+        orders: Iterable[Number],
+        above_db: Number,
     ) -> Peaks:
-        """Peaks from rows of speed, frequency, amplitude, order and number of the spectrum."""
-        numbers = np.array(rows, float).reshape(-1, 5)
-        rpm, frequency_hz, amplitude, order = (array(column) for column in numbers[:, :4].T)
+        """Peaks of spectra, each a speed and amplitudes."""
+        found = peak_rows(of.frequency_hz, spectra, of.resolution_hz, orders, above_db)
+        numbers = np.array(found, float).reshape(-1, 5)
+        rpm, frequency_hz, amplitude, order = map(array, numbers[:, :4].T)
         spectrum = array(numbers[:, 4], np.int64)
-        return cls(rpm, frequency_hz, amplitude, order, spectrum, resolution_hz, hop, unit, name)
+        return cls(rpm, frequency_hz, amplitude, order, spectrum, of.resolution_hz, hop, of.unit, of.name)
 
     def rows(
         self,
@@ -105,30 +109,23 @@ class Peaks(Entry):
         spectra, rpm = self._chosen(speeds)
         modes = saw.modes(rpm.tolist()).frequency_hz[:, :lowest] if len(rpm) else np.empty((0, lowest))
         free = np.isnan(self.order)
-        rows = list[tuple[float, list[float]]]()
+        found = list[tuple[float, list[float]]]()
         for spectrum, speed, computed in zip(spectra, rpm, modes):
             seen = self.frequency_hz[free & (self.spectrum == spectrum)]
             row = _assigned(seen, computed[~np.isnan(computed)], limit)
             if not all(np.isnan(row)):
-                rows.append((float(speed), row))
-        if not rows:
+                found.append((float(speed), row))
+        if not found:
             message = (
                 f"none of {int(free.sum())} peaks of {self.name} is within {limit:g} Hz of the {lowest} lowest "
                 f"computed frequencies; change the scene towards the measured saw, or raise within_hz"
             )
             raise ArgumentError(message, "within_hz", f"{limit:g}", "more", "raise within_hz")
-        return rows
+        return found
 
     def to_csv(self, path: str | os.PathLike[str], rows: Sequence[tuple[float, Sequence[float]]]) -> None:
-        """Writes rows as a table for ``sawflutter fit``, with blanks for NaN.
-
-        Parameters
-        ----------
-        path : str or path
-            The file.
-        rows : sequence
-            The result of :meth:`rows`, or several such lists in one.
-        """
+        """Writes ``rows``, the result of :meth:`rows` or several such lists in one, as a table for
+        ``sawflutter fit`` to a path, with blanks for NaN."""
         most = max((len(hz) for _, hz in rows), default=0)
         names = ",".join(["rpm", *(f"f{place}" for place in range(1, most + 1))])
         text = f"{names}\n{lines(rows)}"

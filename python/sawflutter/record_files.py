@@ -9,8 +9,7 @@ import numpy as np
 import numpy.typing as npt
 
 from . import _channels
-from ._channels import Channels
-from ._columns import Channel
+from ._channels import Channel, Channels
 from ._entry import FloatArray
 from ._values import Number, number
 from .errors import ArgumentError, InputError, refused
@@ -81,7 +80,10 @@ def read_record(
     if rpm is not None:
         speeds: npt.ArrayLike = rpm
     elif turning is None:
-        speeds = _without_speed(found)
+        remedy = (
+            "give rpm=0 for a tap test, rpm=(from, to) for a run-up at a constant rate, or a channel as speed or tacho"
+        )
+        raise refused("rpm", None, f"given, because {found.file} has no channel of a speed", remedy)
     elif tacho is None:
         speeds = turning.samples
     else:
@@ -129,11 +131,6 @@ def _rate(found: Channels, rate_hz: Number | None) -> float:
         remedy = f"leave it out, because {found.file} has a rate of {found.rate_hz:g} Hz"
         raise refused("rate_hz", number("rate_hz", rate_hz), "left out", remedy)
     return number("rate_hz", rate_hz) if rate_hz is not None else float(found.rate_hz or 0.0)
-
-
-def _without_speed(found: Channels) -> npt.ArrayLike:
-    remedy = "give rpm=0 for a tap test, rpm=(from, to) for a run-up at a constant rate, or a channel as speed or tacho"
-    raise refused("rpm", None, f"given, because {found.file} has no channel of a speed", remedy)
 
 
 def _speed_of_pulses(samples: FloatArray, rate_hz: float, pulses_per_turn: int) -> FloatArray:

@@ -11,7 +11,7 @@ import numpy as np
 
 from . import _native
 from ._entry import FloatArray, array
-from ._extras import entries, extra, read
+from ._extras import csv_frame, entries, extra
 from ._methods import know_bands
 from ._report_types import Branch, CampbellReport
 from ._result import Result
@@ -50,14 +50,8 @@ class CampbellResults(Result, CampbellReport):
         return _native.campbell_csv(self._text) if ending == ".csv" else super()._content(ending)
 
     def save(self, path: str | os.PathLike[str]) -> None:
-        """Writes a file, the same bytes as the program, by the ending of its name.
-
-        Parameters
-        ----------
-        path : str or path
-            .html, .csv and others as of :meth:`Result.save`; .pvd lists the grids for ParaView that
-            are written beside it, one for each phase of a period of every shape.
-        """
+        """Writes a file as :meth:`Result.save` does; one that ends in .pvd lists the grids for ParaView
+        that are written beside it, one for each phase of a period of every shape."""
         place = Path(path)
         if place.suffix.lower() != ".pvd":
             return super().save(path)
@@ -69,14 +63,8 @@ class CampbellResults(Result, CampbellReport):
             file.write_text(text, encoding="utf-8", newline="\n")
 
     def to_xarray(self) -> xr.Dataset:
-        """Branches over the speed as labelled arrays; needs xarray.
-
-        Returns
-        -------
-        xarray.Dataset
-            ``frequency_hz``, ``body_frequency_hz``, ``growth_per_s`` and ``krein_sign`` over
-            ``branch`` and ``rpm``; NaN where a branch has no point at a speed.
-        """
+        """``frequency_hz``, ``body_frequency_hz``, ``growth_per_s`` and ``krein_sign`` as labelled
+        arrays over ``branch`` and ``rpm``, NaN where a branch has no point at a speed; needs xarray."""
         with extra("xarray"):
             import xarray as xr
 
@@ -105,18 +93,11 @@ class CampbellResults(Result, CampbellReport):
             Rows of the table: branches at their speeds, with the columns of ``campbell.csv``;
             modes at rest; critical speeds; or bands of instability with their waves, the
             directions of these (``directions``) and their nodal diameters.
-
-        Examples
-        --------
-        >>> import sawflutter as sf
-        >>> r = sf.Scene.paper().run_campbell(accuracy="draft")
-        >>> r.to_dataframe("bands").loc[0, ["kind", "nodal_diameters"]].tolist()
-        ['divergence', '2']
         """
         if of not in get_args(Table):
             raise ValueError(f"there is no table of {of!r}, but {', '.join(get_args(Table))}")
         if of == "branches":
-            return read(_native.campbell_csv(self._text))
+            return csv_frame(_native.campbell_csv(self._text))
         table = entries(getattr(self, of))
         if of == "bands":
             waves = [[mode.partition(", ") for mode in band.modes] for band in self.bands]
@@ -130,17 +111,6 @@ class CampbellResults(Result, CampbellReport):
     def _read(self) -> None:
         know_bands(self.branches, self.bands)
 
-    def _facts(self) -> str:
-        critical = "no critical speed"
-        flutter = f"no flutter above {self.flutter_threshold_per_s:g} 1/s"
-        if self.critical_speeds:
-            critical = f"first critical speed {self.critical_rpm[0]:.0f} rpm"
-        if self.flutter_rpm is not None:
-            flutter = f"flutter from {self.flutter_rpm:.0f} rpm"
-        first, last = self.campbell.from_rpm, self.campbell.to_rpm
-        bands = f"{len(self.bands)} bands of instability from {first:.0f} to {last:.0f} rpm"
-        return f"{critical}, {flutter}, {bands}"
-
 
 def load(path: str | os.PathLike[str]) -> Result | TradeoffResults:
     """Reads a report that the program or :meth:`Result.save` has written, of any kind; for a study
@@ -151,7 +121,7 @@ def load(path: str | os.PathLike[str]) -> Result | TradeoffResults:
     except json.JSONDecodeError as error:
         raise InputError(f"{path} is no report of sawflutter: it is no JSON ({error})") from None
     if isinstance(data, list):
-        return TradeoffResults._from_json(text)
+        return TradeoffResults(text)
     # Of the kinds whose keys are all there, the one with the most: some have the keys of others.
     kinds = [kind for kind in Result.__subclasses__() if kind._required_keys() <= data.keys()]
     if not kinds:

@@ -9,7 +9,7 @@ from collections.abc import Iterable, Iterator, Mapping
 from concurrent.futures import Executor
 from html import escape
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, Literal, SupportsIndex, TypeAlias, TypeVar, cast, overload
+from typing import TYPE_CHECKING, Any, Literal, SupportsIndex, TypeAlias, cast, overload
 
 import numpy as np
 
@@ -40,7 +40,6 @@ if TYPE_CHECKING:
 
     from ._values import Numbers
     from .maps import Along, MapResults
-    from .plot.chart import Chart
     from .plot.motion import Animation
 
 Bounds: TypeAlias = "tuple[Number, Number] | None"
@@ -192,60 +191,20 @@ class Scene(Drawn, Mapping[str, Value]):
         changes : dict
             New values by path, such as ``"guides[0].radius_m"``. None removes a key. A missing
             block, such as ``damping`` in ``"damping.air_n_s_per_m3"``, is created.
-
-        Examples
-        --------
-        >>> import sawflutter as sf
-        >>> free = sf.Scene.paper().replace({"guides": []})
-        >>> round(free.run_campbell().lowest_critical_rpm)
-        1477
         """
         return self._of(_native.replace(self._text, changes))
 
-    def add_guide(
-        self,
-        *,
-        radius_m: Number | None = None,
-        angle_deg: Number | None = None,
-        radial_length_m: Number | None = None,
-        tangential_length_m: Number | None = None,
-        shape: GuideShape | None = None,
-        stiffness_n_per_m: Number | None = None,
-        damping_n_s_per_m: Number | None = None,
-        gap_m: Number | None = None,
-        contact: ContactLaw | None = None,
-        side: GuideSide | None = None,
-        film_stiffness_n_per_m: Number | None = None,
-        offset_m: Number | None = None,
-    ) -> Self:
-        """Returns the scene with one more guide at the end of :attr:`guides`. The arguments are the
-        keys of a guide in a scene file; those that are not given are copied from the last guide.
-        """
-        given = {key: value for key, value in locals().items() if key != "self" and value is not None}
-        last: Mapping[str, Any] = self.guides[-1] if self.guides else {}
-        return self.replace({"guides": [*self.guides, {**last, **given}]})
-
     def with_accuracy(self, accuracy: Accuracy | None = None, tolerance: Number | None = None) -> Self:
-        """Returns the scene with another accuracy, by name or as the relative error that is allowed
-        of critical speeds and onsets.
-
-        Parameters
-        ----------
-        accuracy : {"draft", "design", "reference"}, optional
-            Accuracy by name.
-        tolerance : float, optional
-            Relative error instead of a name.
-        """
+        """Returns the scene with another ``accuracy`` by name, or with a ``tolerance``: the relative
+        error that is allowed of critical speeds and onsets."""
         if accuracy is not None and tolerance is not None:
             raise TypeError("give accuracy or tolerance, not both")
         if accuracy is not None:
             return self.replace({"accuracy": accuracy, "tolerance": None})
         return self if tolerance is None else self.replace({"tolerance": tolerance})
 
-    def _chart(self) -> Chart:
-        from .plot.described import read
-
-        return read(_native.saw_chart(self._text))
+    def _drawing(self) -> str:
+        return _native.saw_chart(self._text)
 
     @overload
     def animate(self, mode: Mode, *, backend: Literal["plotly"] = "plotly", frames: int = 48) -> Figure: ...
@@ -254,17 +213,8 @@ class Scene(Drawn, Mapping[str, Value]):
     def animate(
         self, mode: Mode, *, backend: Literal["plotly", "matplotlib"] = "plotly", frames: int = 48
     ) -> Animation:
-        """Animates a mode of the blade in the fixed frame.
-
-        Parameters
-        ----------
-        mode : Mode
-            One of :meth:`modes`.
-        backend : {"plotly", "matplotlib"}
-            A plotly Figure with frames and a button, or a matplotlib FuncAnimation.
-        frames : int
-            Number of frames in a period.
-        """
+        """Animates a ``mode`` of :meth:`modes` in the fixed frame, with so many ``frames`` in a period;
+        by ``backend`` a plotly Figure with a button, or a matplotlib FuncAnimation."""
         from .plot.motion import animate
 
         return animate(self, mode, backend=backend, frames=frames)
@@ -307,19 +257,11 @@ class Scene(Drawn, Mapping[str, Value]):
         progress : bool or callable, optional
             True shows a bar. A callable is called with the finished and the total number of items
             in each phase of the computation.
-
-        Examples
-        --------
-        >>> import sawflutter as sf
-        >>> r = sf.Scene.paper().run_campbell(accuracy="draft")
-        >>> [round(float(rpm), -1) for rpm in r.critical_rpm[:2]]
-        [1530.0, 1550.0]
-        >>> r.bands[0].kind
-        'divergence'
         """
         scene = self
         if speed_range is not None:
-            speeds = numbers("speed_range", speed_range)
+            # In the unit of the numbers of the scene that they replace.
+            speeds = numbers("sweep.to_rpm", speed_range)
             if speeds.size < 2:
                 raise refused("speed_range", speed_range, "a first and a last speed in rpm", "write it like (0, 3000)")
             scene = self.replace({"sweep.from_rpm": speeds.min(), "sweep.to_rpm": speeds.max()})
@@ -355,9 +297,11 @@ class Scene(Drawn, Mapping[str, Value]):
         1580.0
         """
         nominal = None if beside is None else _scene("beside", beside)._text
-        found, to_rpm = _native.speeds(self._text, nominal)
+        text, to_rpm = _native.speeds(self._text, nominal)
         warned(_native.unusual_numbers(self._text))
-        return Speeds._of(self.name, json.loads(found), to_rpm)
+        found = json.loads(text)
+        critical = [rpm for rpm in found["critical_rpm"] if rpm <= to_rpm]
+        return Speeds._from_dict({**found, "name": self.name, "to_rpm": to_rpm, "critical_rpm": critical})
 
     @overload
     def modes(
@@ -408,7 +352,30 @@ class Scene(Drawn, Mapping[str, Value]):
         warned(_native.unusual_numbers(self._text))
         return Modes._of(speeds, found)
 
-    # Generated by tools/generate_types.py from the library's table of arguments; not to be edited.
+    # Generated by tools/generate_types.py from the library's table of arguments and its schema; not to be edited.
+    def add_guide(
+        self,
+        *,
+        radius_m: Number | None = None,
+        angle_deg: Number | None = None,
+        radial_length_m: Number | None = None,
+        tangential_length_m: Number | None = None,
+        stiffness_n_per_m: Number | None = None,
+        shape: GuideShape | None = None,
+        damping_n_s_per_m: Number | None = None,
+        gap_m: Number | None = None,
+        contact: ContactLaw | None = None,
+        side: GuideSide | None = None,
+        film_stiffness_n_per_m: Number | None = None,
+        offset_m: Number | None = None,
+    ) -> Self:
+        """Returns the scene with one more guide at the end of :attr:`guides`. The arguments are the
+        keys of a guide in a scene file; those that are not given are copied from the last guide.
+        """
+        given = {key: value for key, value in locals().items() if key != "self" and value is not None}
+        last: Mapping[str, Any] = self.guides[-1] if self.guides else {}
+        return self.replace({"guides": [*self.guides, {**last, **given}]})
+
     def check(
         self,
         *,
@@ -823,7 +790,7 @@ class Scene(Drawn, Mapping[str, Value]):
         with reporting(progress, "settings") as told:
             text, _ = _native.run("tradeoff", self._text, {}, told)
         warned(_native.unusual_numbers(self._text))
-        return TradeoffResults._from_json(text, self.name)
+        return TradeoffResults(text, self.name)
 
     def matrices(
         self,
@@ -848,7 +815,12 @@ class Scene(Drawn, Mapping[str, Value]):
                 raise refused("basis", basis, said, "write it like (12, 6)")
             basis = (whole("basis", basis[0]), whole("basis", basis[1]))
         warned(_native.unusual_numbers(self._text))
-        return Matrices._of(self.with_accuracy(accuracy, tolerance)._text, basis)
+        scene = self.with_accuracy(accuracy, tolerance)._text
+        found, diameters, functions = _native.matrices(scene, basis=basis)
+        arrays: dict[str, Any] = {"damping": None, "circulatory": None}
+        for name, values in found.items():
+            arrays[name] = np.frombuffer(values, "<f8").reshape((2 * diameters + 1) * functions, -1)
+        return Matrices(**arrays, max_diameters=diameters, radial_functions=functions, _scene=scene)
 
     def run_stiffness_map(
         self,
@@ -942,23 +914,15 @@ def schema(*, study: bool = False) -> dict[str, Any]:
     return found
 
 
-T = TypeVar("T")
-
-
 def rows_in_html(title: str, rows: Iterable[tuple[str, object]]) -> str:
     """A table of names and values, for a notebook."""
     cells = "".join(f"<tr><td>{escape(name)}</td><td>{escape(str(value))}</td></tr>" for name, value in rows)
     return f"<p><b>{escape(title)}</b></p><table>{cells}</table>"
 
 
-def _scene(name: str, value: T) -> T:
+def _scene(name: str, value: object) -> Scene:
     """An argument that must be a scene."""
     if isinstance(value, Scene):
         return value
-    remedy = "make one: Scene(dict), Scene.load(path)"
-    raise refused(name, _short(value), "a Scene", remedy)
-
-
-def _short(value: object) -> object:
-    """A value of which an error shows the kind only."""
-    return value if isinstance(value, (str, int, float, type(None))) else type(value)
+    shown = value if isinstance(value, (str, int, float, type(None))) else type(value)
+    raise refused(name, shown, "a Scene", "make one: Scene(dict), Scene.load(path)")

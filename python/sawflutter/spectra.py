@@ -14,12 +14,12 @@ from ._drawn import Drawn
 from ._entry import ComplexArray, Entry, FloatArray, array
 from ._extras import extra
 from ._values import Number, optional
-from ._picking import rows
 from .errors import InputError, refused
 from .peaks import Peaks
+from .plot.chart import Chart
+from .plot.described import read
 
 if TYPE_CHECKING:
-    from .plot.chart import Chart
     from .records import Record
     from .scene import Scene
 
@@ -63,38 +63,15 @@ class Spectrum(Drawn, Entry):
 
         Parameters
         ----------
-        orders : iterable of float
-            Multiples of the rotation speed; peaks near them are marked as in
-            :meth:`Waterfall.peaks`. A saw at rest has none.
-        above_db : float
-            Height above the median level around the peak.
-
-        Returns
-        -------
-        Peaks
-            With at least a thousandth of the largest amplitude.
+        orders, above_db
+            As in :meth:`Waterfall.peaks`. A saw at rest has no orders.
         """
         spectra = [(self.rpm, np.abs(self.response))]
-        found = rows(self.frequency_hz, spectra, self.resolution_hz, orders, above_db)
-        return Peaks._of(found, self.resolution_hz, _APART, self.unit, self.name)
+        return Peaks._picked(self, _APART, spectra, orders, above_db)
 
     def chart(self, saw: Scene | None = None, peaks: Peaks | None = None) -> Chart:
-        """Level over frequency, with the computed frequencies of a saw and the picked peaks.
-
-        Parameters
-        ----------
-        saw : Scene, optional
-            A saw whose frequencies at this speed are drawn as vertical lines.
-        peaks : Peaks, optional
-            Picked peaks, as rings.
-
-        Returns
-        -------
-        sawflutter.plot.Chart
-            Its ``plot()`` and ``plot_matplotlib()`` draw it.
-        """
-        from .plot.described import read
-
+        """Level over frequency, with the computed frequencies of a ``saw`` at this speed as vertical
+        lines, and picked ``peaks`` as rings."""
         computed = None if saw is None else (saw.name, saw.modes(self.rpm).frequency_hz)
         return read(_native.spectrum_chart(self, np.abs(self.response), computed, peaks))
 
@@ -119,18 +96,6 @@ def read_frf(
         Rotation speed; by default that on the z axis of the data set, or 0, at rest.
     number : int
         Number of the frequency response in the file, from 0.
-
-    Examples
-    --------
-    >>> import pathlib, tempfile
-    >>> import numpy as np
-    >>> import sawflutter as sf
-    >>> f = np.arange(0, 100, 0.1)
-    >>> h = 1 / (40**2 - f**2 + 2j * 0.005 * 40 * f)
-    >>> path = pathlib.Path(tempfile.mkdtemp()) / "frf.csv"
-    >>> np.savetxt(path, np.column_stack([f, h.real, h.imag]), delimiter=",", header="f_hz,re,im", comments="")
-    >>> sf.read_frf(path).peaks().frequency_hz.round(2).tolist()
-    [40.0]
     """
     found = _channels.read_responses(path)
     if not 0 <= number < len(found):

@@ -47,15 +47,6 @@ class StateSpace(Entry):
     def __iter__(self) -> Iterator[FloatArray]:
         return iter((self.A, self.B, self.C, self.D))
 
-    @classmethod
-    def _of(cls, rpm: float, companion: FloatArray, forces: FloatArray, probes: FloatArray) -> StateSpace:
-        """The state space of all unknowns; forces and probes have the basis functions at a point in
-        a row each."""
-        size = len(companion) // 2
-        inputs = np.vstack([np.zeros((size, len(forces))), forces.T])
-        outputs = np.hstack([probes, np.zeros((len(probes), size))])
-        return cls(rpm, companion, inputs, outputs, np.zeros((len(probes), len(forces))))
-
     def reduced(self, to_hz: Number) -> StateSpace:
         """The state space of the modes up to a frequency. The others deflect at once, as at
         rest, so that static deflections remain those of the full model.
@@ -64,12 +55,6 @@ class StateSpace(Entry):
         ----------
         to_hz : float
             Largest frequency in space of a mode that is kept.
-
-        Raises
-        ------
-        ValueError
-            Where no mode is as low, or where the modes cannot be separated: two of them coalesce
-            at this speed, or nothing holds the blade against a rigid motion.
         """
         to_hz = number("to_hz", to_hz)
         values, vectors = np.linalg.eig(self.A)
@@ -91,15 +76,9 @@ class StateSpace(Entry):
         return StateSpace(self.rpm, matrix, inverse @ self.B, self.C @ basis, self.D + yielding.real)
 
     def response(self, frequency_hz: npt.ArrayLike) -> ComplexArray:
-        """Deflections for forces of one newton at frequencies, in m/N: their size and phase. Memory
-        is bounded, for any number of frequencies.
-
-        Parameters
-        ----------
-        frequency_hz : array_like
-            Frequencies in space. The result has their shape, with outputs and inputs as its last
-            axes.
-        """
+        """Deflections for forces of one newton at frequencies in space, in m/N: their size and phase,
+        in the shape of ``frequency_hz`` with outputs and inputs as the last axes. Memory is bounded,
+        for any number of frequencies."""
         hz = numbers("frequency_hz", frequency_hz)
         found = np.empty((hz.size, len(self.C), self.B.shape[1]), complex)
         solve, size = self._solver()
@@ -127,21 +106,9 @@ class StateSpace(Entry):
         return lambda s: probe @ np.linalg.solve(s**2 * half + s * velocity + position, force), size
 
     def time_response(self, forces_n: npt.ArrayLike, times_s: npt.ArrayLike) -> FloatArray:
-        """Deflections over time from rest in m, under forces that are linear between the times;
-        needs SciPy.
-
-        Parameters
-        ----------
-        forces_n : array_like
-            Forces at each time, of the shape (times, inputs).
-        times_s : array_like
-            Ascending times at even steps.
-
-        Returns
-        -------
-        ndarray of float
-            Of the shape (times, outputs).
-        """
+        """Deflections over time from rest in m, of the shape (times, outputs), under ``forces_n`` of
+        the shape (times, inputs), which are linear between ``times_s``, ascending at even steps; needs
+        SciPy."""
         with extra("records"):
             from scipy.signal import lsim
         times = numbers("times_s", times_s)

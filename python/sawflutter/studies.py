@@ -9,14 +9,14 @@ from typing import TYPE_CHECKING, Any, Literal
 import numpy as np
 
 from . import _native
-from ._extras import extra, read
+from ._extras import csv_frame, extra
 from ._report_types import StudyReport
 from ._result import Result
+from .plot.chart import Chart
+from .plot.described import read
 
 if TYPE_CHECKING:
     import pandas as pd
-
-    from .plot.chart import Chart
 
 
 class StudyResults(Result, StudyReport):
@@ -40,7 +40,7 @@ class StudyResults(Result, StudyReport):
             raise FileNotFoundError(
                 "the table of the saws is study.csv beside the report: load it there"
             )
-        return read(table)
+        return csv_frame(table)
 
     def _csv(self) -> str | None:
         if isinstance(self._table, Path):
@@ -62,20 +62,11 @@ class StudyResults(Result, StudyReport):
         estimates them by RBD-FAST from the saws of the study (Tarantola, Gatelli and Mara,
         Reliability Engineering and System Safety 91 (2006), 717).
 
-        Parameters
-        ----------
-        confidence : float
-            Confidence level of the half-width of each index, from resampled saws.
-        seed : int
-            Seed of the resampling.
-
-        Returns
-        -------
-        pandas.DataFrame
-            One row for each number, with the columns ``lowest_critical``, ``flutter``, and the
-            half-widths ``lowest_critical_confidence``, ``flutter_confidence``. A column is NaN if
-            all saws have the same speed. A saw without such a speed counts with the last speed of
-            its sweep; saws without an analysis are left out.
+        The table has a row for each number, with the columns ``lowest_critical``, ``flutter``, and
+        their half-widths ``lowest_critical_confidence``, ``flutter_confidence`` at a level of
+        ``confidence``, from saws that are resampled with a ``seed``. A column is NaN if all saws have
+        the same speed. A saw without such a speed counts with the last speed of its sweep; saws
+        without an analysis are left out.
         """
         with extra("sensitivity"):
             import pandas as pd
@@ -101,15 +92,8 @@ class StudyResults(Result, StudyReport):
     def map_chart(
         self, speed: Literal["lowest_critical_rpm", "flutter_rpm"] = "flutter_rpm"
     ) -> Chart:
-        """A speed over the two numbers of a grid, as a heat map; needs pandas.
-
-        Parameters
-        ----------
-        speed : {"lowest_critical_rpm", "flutter_rpm"}
-            Speed to show; the median if a point of the grid has several random saws.
-        """
-        from .plot.described import read
-
+        """A ``speed`` over the two numbers of a grid, as a heat map of the median where a point of the
+        grid has several random saws; needs pandas."""
         paths = [
             parameter["path"]
             for parameter in self.study["parameters"]
@@ -124,10 +108,3 @@ class StudyResults(Result, StudyReport):
         lost = ((self.all.refused, "refused"), (self.all.failed, "failed"))
         said = (f"{count} of {self.all.saws} saws {word}; the table says why" for count, word in lost if count)
         return (*super()._warnings(), *said)
-
-    def _facts(self) -> str:
-        passing = self.all.passing
-        kept = "" if passing is None else f", {1e2 * passing.probability:.2f} % keep the limits"
-        lost = ((self.all.refused, "refused"), (self.all.failed, "failed"))
-        said = "".join(f", {count} {word}" for count, word in lost if count)
-        return f"{self.all.saws} saws{said}{kept}"

@@ -71,13 +71,8 @@ class Study:
         return cast(StudyDict, json.loads(self._text))
 
     def values(self, saws: Iterable[int] | None = None) -> FloatArray:
-        """Values of the varied numbers, of the shape (saws, numbers).
-
-        Parameters
-        ----------
-        saws : iterable of int, optional
-            Indices of saws, counted from 0; by default all.
-        """
+        """Values of the varied numbers, of the shape (saws, numbers), by default of all ``saws``; they
+        are counted from 0."""
         chosen = range(self.count) if saws is None else saws
         return np.array([self._native.values(whole("saws", saw)) for saw in chosen])
 
@@ -93,16 +88,16 @@ class Study:
         Parameters
         ----------
         folder : path
-            Folder for the log, which records every finished saw at once, and for the results,
-            which are the files of the program. A stopped run continues when started again.
+            Folder for the log of finished saws and for the results, the files of the program. A
+            stopped run continues when started again.
         executor : concurrent.futures.Executor or dask.distributed.Client, optional
             Executor for the saws; by default all cores of this machine. A task is a range of saws
             that takes about half a minute; only this process writes the log. With a client of
             Dask, the run continues when workers are lost. A saw that ends every worker that
             computes it becomes a row "failed", and the other saws are still computed.
         progress : bool or callable, optional
-            True shows a bar. A callable is called with the finished and the total number of saws.
-            With a client of Dask the address of its dashboard is printed too.
+            As of :meth:`Scene.run_campbell`. With a client of Dask the address of its dashboard is
+            printed, too.
         """
         place = Path(folder)
         self._compute(place, executor, progress)

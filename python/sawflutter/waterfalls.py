@@ -14,12 +14,14 @@ from ._drawn import Drawn
 from ._entry import Entry, FloatArray, array
 from ._extras import extra
 from ._values import Number, number
-from ._picking import lowest_hz, rows
+from ._picking import lowest_hz
 from .errors import refused
 from .peaks import Peaks
+from .plot.chart import Chart
+from .plot.described import read
+from .plot.look import with_harmonics
 
 if TYPE_CHECKING:
-    from .plot.chart import Chart
     from .records import Record
     from .results import CampbellResults
 
@@ -69,17 +71,10 @@ class Waterfall(Drawn, Entry):
         orders : iterable of float
             Multiples of the rotation speed; the number of teeth is one.
         above_db : float
-            Height above the median level around the peak.
-
-        Returns
-        -------
-        Peaks
-            With frequencies above twice the resolution, and with at least a thousandth of the
-            largest amplitude at their speed.
+            Height above the median level around the peak. Peaks below a thousandth of the largest
+            amplitude at their speed, or below twice the resolution, are left out.
         """
-        spectra = zip(self.rpm, self.amplitude)
-        found = rows(self.frequency_hz, spectra, self.resolution_hz, orders, above_db)
-        return Peaks._of(found, self.resolution_hz, self.hop, self.unit, self.name)
+        return Peaks._picked(self, self.hop, zip(self.rpm, self.amplitude), orders, above_db)
 
     def chart(
         self,
@@ -102,15 +97,7 @@ class Waterfall(Drawn, Entry):
             Multiples of the rotation speed that are drawn as lines.
         range_db : float
             Range of the colours, below the largest amplitude.
-
-        Returns
-        -------
-        sawflutter.plot.Chart
-            Its ``plot()`` and ``plot_matplotlib()`` draw it.
         """
-        from .plot.described import read
-        from .plot.look import with_harmonics
-
         if not (span := number("range_db", range_db)) > 0.0:
             raise refused("range_db", range_db, "above 0", "60 is usual")
         report = None if computed is None else computed.to_json()

@@ -52,7 +52,7 @@ pub struct Refusal {
 
 impl Refusal {
     /// An error with a message only.
-    fn saying(class: &'static str, message: impl ToString, key: Option<String>) -> Failure {
+    pub fn saying(class: &'static str, message: impl ToString, key: Option<String>) -> Failure {
         Failure::Refused(Box::new(Refusal {
             class,
             message: message.to_string(),

@@ -58,6 +58,12 @@ pub fn summary(command: &str, report: &str, details: bool) -> PyResult<String> {
     Ok(read(command, report)?.text(details))
 }
 
+/// The answer of a report of the command of this name in one line.
+#[pyfunction]
+pub fn answer(command: &str, report: &str) -> PyResult<String> {
+    Ok(read(command, report)?.answer())
+}
+
 /// The text of a report of the command of this name as HTML.
 #[pyfunction]
 pub fn html(command: &str, report: &str) -> PyResult<String> {

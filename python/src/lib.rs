@@ -14,10 +14,15 @@ mod values;
 mod watch;
 
 use pyo3::prelude::*;
+use pyo3::types::PyBytes;
+use sawflutter::analyses::fit::{FitError, number_columns};
 use sawflutter::model::scene::{MAX_SCENE_BYTES, Scene};
 use sawflutter::page::text::{Kind, OtherEncodings, read_path};
 
 use crate::failure::Failure;
+
+/// Largest table of an instrument: an hour of two channels at 1 kHz.
+const MAX_TABLE_BYTES: u64 = 1 << 28;
 
 #[pymodule]
 mod _native {
@@ -27,8 +32,8 @@ mod _native {
     use super::commands::{compare, run};
     #[pymodule_export]
     use super::figures::{
-        campbell_csv, chart, figure_names, html, page, palette, picture, summary, tradeoff_chart,
-        vtk_files,
+        answer, campbell_csv, chart, figure_names, html, page, palette, picture, summary,
+        tradeoff_chart, vtk_files,
     };
     #[pymodule_export]
     use super::map::Map;
@@ -41,15 +46,7 @@ mod _native {
     #[pymodule_export]
     use super::values::{magnitude, number, plain};
     #[pymodule_export]
-    use super::{calls, keys, outlines, panic, paper, program, read_scene, read_text, schema};
-}
-
-/// Corners of the guides of a scene in metres, each as x and y.
-#[pyfunction]
-fn outlines(text: &str) -> PyResult<Vec<Vec<[f64; 2]>>> {
-    let scene = arguments::scene(text)?;
-    let guides = scene.file().guides.iter();
-    Ok(guides.map(|guide| guide.outline_m()).collect())
+    use super::{calls, columns, keys, panic, paper, program, read_scene, read_text, schema};
 }
 
 /// The scene that comes with the program.
@@ -78,6 +75,36 @@ fn read_text(path: std::path::PathBuf, table: bool) -> PyResult<String> {
         other_encodings,
     };
     Ok(read_path(&path, kind).map_err(|error| failure::file(class, error))?)
+}
+
+/// Columns of the table of an instrument: names, units, and numbers as little-endian doubles.
+#[pyfunction]
+fn columns<'py>(
+    py: Python<'py>,
+    path: std::path::PathBuf,
+) -> PyResult<Vec<(String, String, Bound<'py, PyBytes>)>> {
+    let kind = Kind {
+        limit: MAX_TABLE_BYTES,
+        other_encodings: OtherEncodings::AsLatin1,
+    };
+    let text = read_path(&path, kind).map_err(|error| failure::file("InputError", error))?;
+    let found = number_columns(&text).map_err(|error| match error {
+        FitError::Table { line, problem } => {
+            let said = format!("line {line} of {}: {problem}", path.display());
+            failure::Refusal::saying("InputError", said, None)
+        }
+        other => other.into(),
+    })?;
+    let bytes = |numbers: &[f64]| {
+        numbers
+            .iter()
+            .flat_map(|x| x.to_le_bytes())
+            .collect::<Vec<u8>>()
+    };
+    let found = found.into_iter();
+    Ok(found
+        .map(|of| (of.name, of.unit, PyBytes::new(py, &bytes(&of.numbers))))
+        .collect())
 }
 
 /// JSON schemas of scenes, studies and reports, as one JSON object.

@@ -53,18 +53,9 @@ fn path_of(path: &Bound<'_, PyAny>) -> PyResult<String> {
 #[pyfunction]
 pub fn value(scene: &str, path: &Bound<'_, PyAny>) -> PyResult<String> {
     let path = &path_of(path)?;
-    let mut place: &Value = &serde_json::from_str(scene).map_err(Failure::from)?;
-    let mut reached = String::new();
-    for step in steps(path)? {
-        let found = match (place, &step) {
-            (Value::Object(block), Step::Key(key)) => block.get(key),
-            (Value::Array(list), Step::Index(at)) => list.get(*at),
-            _ => None,
-        };
-        place = found.ok_or_else(|| missing(place, &reached, path))?;
-        step.append_to(&mut reached);
-    }
-    Ok(place.to_string())
+    let mut data: Value = serde_json::from_str(scene).map_err(Failure::from)?;
+    let (found, _) = descend(&mut data, &steps(path)?, path, false)?;
+    Ok(found.to_string())
 }
 
 /// A step of a path.
@@ -114,19 +105,41 @@ fn no_path(shown: &str, path: &str) -> Failure {
 
 fn put(data: &mut Value, path: &str, mut value: Value) -> Result<(), Failure> {
     read_numbers(path, &mut value)?;
-    let mut steps = steps(path)?;
-    let Some(last) = steps.pop() else {
+    let steps = steps(path)?;
+    let Some((last, before)) = steps.split_last() else {
         return Ok(());
     };
-    let (mut place, mut reached) = (data, String::new());
+    let (place, reached) = descend(data, before, path, true)?;
+    let error = missing(place, &reached, path);
+    match (place, last) {
+        (Value::Object(block), Step::Key(key)) if value.is_null() => {
+            block.remove(key);
+        }
+        (Value::Object(block), Step::Key(key)) => {
+            block.insert(key.clone(), value);
+        }
+        (Value::Array(list), Step::Index(at)) => *list.get_mut(*at).ok_or(error)? = value,
+        _ => return Err(error),
+    }
+    Ok(())
+}
+
+/// The value at the end of steps, and the path up to it. Blocks that are missing can be begun.
+fn descend<'a>(
+    mut place: &'a mut Value,
+    steps: &[Step],
+    path: &str,
+    can_begin: bool,
+) -> Result<(&'a mut Value, String), Failure> {
+    let mut reached = String::new();
     for step in steps {
-        if let (Value::Object(block), Step::Key(key)) = (&mut *place, &step) {
+        if can_begin && let (Value::Object(block), Step::Key(key)) = (&mut *place, step) {
             block
                 .entry(key)
                 .or_insert_with(|| Value::Object(Map::new()));
         }
         let error = missing(place, &reached, path);
-        let found = match (place, &step) {
+        let found = match (place, step) {
             (Value::Object(block), Step::Key(key)) => block.get_mut(key),
             (Value::Array(list), Step::Index(at)) => list.get_mut(*at),
             _ => None,
@@ -134,18 +147,7 @@ fn put(data: &mut Value, path: &str, mut value: Value) -> Result<(), Failure> {
         place = found.ok_or(error)?;
         step.append_to(&mut reached);
     }
-    let error = missing(place, &reached, path);
-    match (place, last) {
-        (Value::Object(block), Step::Key(key)) if value.is_null() => {
-            block.remove(&key);
-        }
-        (Value::Object(block), Step::Key(key)) => {
-            block.insert(key, value);
-        }
-        (Value::Array(list), Step::Index(at)) => *list.get_mut(at).ok_or(error)? = value,
-        _ => return Err(error),
-    }
-    Ok(())
+    Ok((place, reached))
 }
 
 /// The error of a step that a scene does not have; it lists those that it has.

@@ -75,7 +75,7 @@ def test_cut_is_stable_at_1800_and_flutters_at_2800() -> None:
     assert fast.time_s.shape == fast.deflection_m.shape
     shape = (len(fast.map.load_level), len(fast.map.guide_angle_deg))
     assert fast.map.growth_per_s.shape == shape
-    assert "stable at 1800 rpm, unstable at 2800 rpm" in repr(cut)
+    assert "1800 rpm: stable; 2800 rpm: UNSTABLE" in repr(cut)
     assert len(cut.to_dataframe()) == 2
 
 
@@ -114,7 +114,7 @@ def test_washboarding_grows_with_the_cutting_stiffness(resaw: sf.Scene) -> None:
     assert len(found.to_dataframe()) == len(found.modes)
     below = resaw.replace({"cut.washboarding.stiffness_n_per_m": 0.9 * least})
     assert below.run_washboard().verdict == "stable"
-    assert "unstable at 2400 rpm" in repr(found)
+    assert "2400 rpm: UNSTABLE" in repr(found)
 
 
 def test_washboarding_without_damping_or_a_stiffness_is_refused(resaw: sf.Scene) -> None:

@@ -38,6 +38,8 @@ import sawflutter as sf
         (lambda saw: saw.matrices(basis=(6, 4)).companion(float("nan")), "rpm must be finite"),
         (lambda saw: saw.matrices(basis=(6, 4)).at(0.2, float("nan")), "angle_deg must be finite"),
         (lambda saw: saw.matrices(basis=(6, 4)).state_space(9, inputs=[], outputs=[(0.2, 3)]), "inputs must be points"),
+        (lambda saw: saw.modes(900)[0].deflection(0.2, 0.0, float("nan")), "time_s must be finite"),
+        (lambda saw: saw.run_campbell(speed_range=("0 Hz", "40 Hz")), "sweep.to_rpm must be a number in rpm"),
         (lambda saw: saw.check(operating_rpm="fast"), "operating_rpm must be a number in rpm.*30 rev/s"),
         (lambda saw: saw.check(operating_rpm="40 Hz"), "operating_rpm must be a number in rpm"),
         (lambda saw: saw.check(min_flutter_rpm=[1]), "min_flutter_rpm must be a number in rpm"),
@@ -72,6 +74,8 @@ def test_unknown_keys_and_words_say_what_is_allowed() -> None:
 
 def test_units_go_wherever_numbers_go(draft: sf.Scene) -> None:
     assert sf.Scene({**draft.to_dict(), "operating_rpm": "40 rev/s"})["operating_rpm"] == pytest.approx(2400.0)
+    swept = draft.run_campbell(speed_range=("0 rpm", "10 rev/s"))
+    assert swept.saw["sweep.to_rpm"] == pytest.approx(600.0)
     check = draft.check(operating_rpm="20 rev/s", max_rim_m_per_s="6 km/min")
     assert check == draft.check(operating_rpm=1200.0, max_rim_m_per_s=100.0)
     bounds = {"guides[0].radius_m": ("200 mm", "240 mm")}

@@ -83,12 +83,20 @@ def test_a_number_that_no_saw_has_is_warned_of_before_the_answer(draft: sf.Scene
 
 def test_a_repr_says_what_has_happened(draft: sf.Scene) -> None:
     free = draft.replace({"guides": []}).run_campbell()
-    assert f"no flutter above {free.flutter_threshold_per_s:g} 1/s" in repr(free)
+    assert f"No flutter of {free.flutter_threshold_per_s:g} 1/s" in repr(free)
     up = draft.run_up()
-    crossed = sum(entry.band.from_rpm < up.rpm[-1] for entry in up.bands)
-    assert f", {crossed} bands crossed" in repr(up)
+    assert f"Run-up from {up.rpm[0]:.0f} to {up.to_rpm:.0f} rpm" in repr(up)
     if up.linear_until_rpm is not None:
-        assert "the linear model ends" in repr(up)
+        assert "linear model ends" in repr(up)
+
+
+def test_a_repr_has_the_numbers_that_were_asked_for() -> None:
+    folder = Path(__file__).parents[2] / "tests" / "golden" / "reports"
+    compared, fitted, failed = (sf.load(folder / f"{name}.json") for name in ("compare-two", "fit-paper", "check-failed"))
+    assert repr(compared).count("flutter") == 2
+    assert "guides[0].radius_m = 0." in repr(fitted) and "Hz rms" in repr(fitted)
+    # pytest shows 240 letters of a failed assertion.
+    assert "2800 rpm: 2256 rpm" in repr(failed)[:240]
 
 
 def test_the_range_of_speeds_is_an_argument(draft: sf.Scene) -> None:

@@ -179,6 +179,12 @@ class SceneTypes:
         heading = f"# {schema.get('description', name)}"
         return ["", "", heading, f'{name} = TypedDict("{name}", {{', *parts, "})"]
 
+    def keywords(self, definition: str) -> list[tuple[str, str]]:
+        """Keys of a definition and the types of arguments for them."""
+        keys = ordered(self.definitions[definition])
+        types = ((key, self.type_of(of).removesuffix(" | None")) for key, of, _ in keys)
+        return [(key, of.replace("float", "Number")) for key, of in types]
+
     def number_paths(self) -> list[str]:
         """Paths of the numbers of a scene; of lists, those of the first guides."""
         found = list[str]()
@@ -334,7 +340,7 @@ def main() -> int:
         "_scene_types.py": scenes.module(),
         "_report_types.py": ReportTypes(schema["reports"], scenes).module(),
         "scene.py": with_methods(
-            (PACKAGE / "scene.py").read_text(encoding="utf-8"), json.loads(_native.calls())
+            (PACKAGE / "scene.py").read_text(encoding="utf-8"), scenes.keywords("GuideFile"), json.loads(_native.calls())
         ),
     }
     status = 0

@@ -22,12 +22,7 @@ FACTS = 110
 
 @cache
 def colours() -> Mapping[str, str]:
-    """Colours of the program's figures by subject, as #rrggbb.
-
-    >>> from sawflutter.plot import colours
-    >>> colours()["forward"]
-    '#1f5fa8'
-    """
+    """Colours of the program's figures by subject, as #rrggbb."""
     palette = json.loads(_native.palette())
     named = {name: "#" + "".join(f"{c:02x}" for c in rgb) for name, rgb in palette.items()}
     return MappingProxyType(named)
@@ -158,13 +153,11 @@ class Panel:
     """Whether the y axis shows signed square roots, so that small values next to large ones are
     seen."""
     x_ticks: Sequence[float] = ()
-    """Values of the x axis that have a number; empty if the range determines them."""
+    """Values of an axis that have a number; empty if the range determines them."""
     x_names: Sequence[str] = ()
-    """Words at these values, in place of numbers."""
+    """Words at these values, or names of rows, in place of numbers."""
     y_ticks: Sequence[float] = ()
-    """Values of the y axis that have a number; empty if the range determines them."""
     y_names: Sequence[str] = ()
-    """Names of rows at these values, in place of numbers."""
     share: float = 1.0
     """Height beside that of the other panels."""
     title: str = ""
@@ -189,7 +182,7 @@ class Chart(Drawn):
     key: Sequence[Item] = ()
     """Samples of lines, points and areas, each named by its meaning."""
 
-    def _chart(self) -> Chart:
+    def chart(self) -> Chart:
         return self
 
     def __repr__(self) -> str:

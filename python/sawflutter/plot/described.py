@@ -9,19 +9,11 @@ from typing import Any
 
 import numpy as np
 
-from .. import _native
 from .chart import Area, Bars, Chart, Heat, Item, Label, Line, Panel, Points, Shade, Upright, colours
 from .chart import FACTS
 
 # Narrower bands, as a share of the axis, get a stronger colour.
 NARROW = 0.004
-
-
-def described(command: str, name: str, report: str) -> Chart | None:
-    """The chart of a figure of the program, by its name without an ending; None if the report has
-    no data for it."""
-    text = _native.chart(command, name, report)
-    return None if text is None else read(text)
 
 
 def read(text: str) -> Chart:

@@ -6,12 +6,11 @@ from typing import TYPE_CHECKING, Any, Literal, TypeAlias
 
 import numpy as np
 
-from .. import _native
 from .._entry import FloatArray
 from .._extras import extra
 from .._report_types import Mode
 from ..errors import refused
-from .chart import colours
+from .chart import Line, colours
 
 if TYPE_CHECKING:
     from matplotlib.animation import FuncAnimation
@@ -42,7 +41,8 @@ def animate(
     if not isinstance(mode, Mode):
         said = "one mode at a speed, like saw.modes(1800)[0]"
         raise refused("mode", type(mode), said, "modes at rest and tables of modes do not move")
-    if not np.allclose(mode.radius_m[[0, -1]], _radii(saw), rtol=1e-9):
+    pads, radii = _outlines(saw)
+    if not np.allclose(mode.radius_m[[0, -1]], radii, rtol=1e-9):
         raise refused("mode", mode.name, "a mode of this saw", "compute it with the modes of the same scene")
     radius, theta = grid(mode)
     pictures = deflections(mode, radius, theta, frames)
@@ -50,20 +50,16 @@ def animate(
     if mode.growth_per_s > 0.0:
         title += f", grows by {mode.growth_per_s:.3g} 1/s"
     if backend == "plotly":
-        return _plotly(saw, radius, theta, pictures, title)
-    return _matplotlib(saw, radius, theta, pictures, title.replace("<br>", "\n"))
+        return _plotly(pads, radius, theta, pictures, title)
+    return _matplotlib(pads, radius, theta, pictures, title.replace("<br>", "\n"))
 
 
-def pads(saw: Scene) -> list[FloatArray]:
-    """Closed outlines of the guides, each as x and y."""
-    corners = (np.array(outline) for outline in _native.outlines(saw.to_json()))
-    return [np.vstack([outline, outline[:1]]).T for outline in corners]
-
-
-def _radii(saw: Scene) -> tuple[float, float]:
-    """Inner and outer radius of the part of the blade that moves."""
-    mount: dict[str, Any] = dict(saw.mount or {})
-    return float(mount.get("diameter_m") or saw.blade["inner_diameter_m"]) / 2.0, saw.blade["outer_diameter_m"] / 2.0
+def _outlines(saw: Scene) -> tuple[list[Line], list[float]]:
+    """Closed outlines of the guides, and inner and outer radius of the part of the blade that moves."""
+    lines = [item for item in saw.chart().panels[0].items if isinstance(item, Line)]
+    radii = {line.name: float(line.x[0]) for line in lines}
+    pads = [line for line in lines if line.name.startswith("guides[")]
+    return pads, [radii.get("collar", radii["bore"]), radii["rim"]]
 
 
 def grid(mode: Mode) -> tuple[FloatArray, FloatArray]:
@@ -88,7 +84,7 @@ def _scale() -> list[str]:
 
 
 def _plotly(
-    saw: Scene, radius: FloatArray, theta: FloatArray, pictures: FloatArray, title: str
+    pads: list[Line], radius: FloatArray, theta: FloatArray, pictures: FloatArray, title: str
 ) -> Figure:
     with extra("plot"):
         import plotly.graph_objects as go
@@ -106,10 +102,10 @@ def _plotly(
     steps = [go.Frame(data=[surface(w)], name=str(k), traces=[0]) for k, w in enumerate(pictures)]
     outlines = [
         go.Scatter3d(
-            x=px, y=py, z=np.zeros(len(px)), mode="lines", name="guide",
+            x=pad.x, y=pad.y, z=np.zeros(len(pad.x)), mode="lines", name="guide",
             line={"color": colours()["ink"], "width": 4}, hoverinfo="name",
         )
-        for px, py in pads(saw)
+        for pad in pads
     ]  # fmt: skip
     play: dict[str, Any] = {
         "frame": {"duration": INTERVAL_MS},
@@ -137,7 +133,7 @@ def _plotly(
 
 
 def _matplotlib(
-    saw: Scene, radius: FloatArray, theta: FloatArray, pictures: FloatArray, title: str
+    pads: list[Line], radius: FloatArray, theta: FloatArray, pictures: FloatArray, title: str
 ) -> FuncAnimation:
     with extra("plot"):
         import matplotlib.pyplot as plt
@@ -148,8 +144,8 @@ def _matplotlib(
     scale = LinearSegmentedColormap.from_list("deflection", _scale())
     x, y = radius * np.cos(theta), radius * np.sin(theta)
     mesh = ax.pcolormesh(x, y, pictures[0], cmap=scale, vmin=-1.0, vmax=1.0, shading="gouraud")
-    for px, py in pads(saw):
-        ax.plot(px, py, color=colours()["ink"], linewidth=1.5)
+    for pad in pads:
+        ax.plot(pad.x, pad.y, color=colours()["ink"], linewidth=1.5)
     ax.set_aspect("equal")
     ax.set_axis_off()
     ax.set_title(title, loc="left", fontsize=11, color=colours()["ink"])

@@ -85,6 +85,11 @@ pub trait CommandReport {
         self.outline().in_columns(with_details)
     }
 
+    /// Returns the answer in one line.
+    fn answer(&self) -> String {
+        self.outline().answer()
+    }
+
     /// Returns the text as a part of a page of HTML, with its details.
     fn html(&self) -> String {
         self.outline().in_html()

@@ -23,6 +23,7 @@
 //! ```
 
 pub(crate) mod chart;
+mod columns;
 mod comparison;
 mod error;
 mod least_squares;
@@ -46,6 +47,7 @@ use crate::modes::branches::Progress;
 use crate::stability::ChosenBasis;
 pub(crate) use outline::outline;
 
+pub use columns::{NumberColumn, number_columns};
 use comparison::Compared;
 pub use error::FitError;
 use least_squares::{Found, at_bound, statistics};

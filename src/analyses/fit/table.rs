@@ -45,14 +45,14 @@ pub fn read(text: &str) -> Result<Table, FitError> {
 
 /// Separator between cells.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-enum Separator {
+pub(super) enum Separator {
     Mark(u8),
     Blanks,
 }
 
-struct Record {
-    line: u64,
-    cells: Vec<String>,
+pub(super) struct Record {
+    pub(super) line: u64,
+    pub(super) cells: Vec<String>,
 }
 
 impl Record {
@@ -72,7 +72,7 @@ fn is_comment(line: &str) -> bool {
 impl Separator {
     /// The first of semicolon, tab and comma that occurs outside quotation marks; blanks if none does. In a table with
     /// semicolons or tabs a comma may be decimal, but not the other way round.
-    fn of(text: &str) -> Self {
+    pub(super) fn of(text: &str) -> Self {
         let mut quoted = false;
         let mut seen = [false; 3];
         for line in text.lines().filter(|line| !is_comment(line)) {
@@ -91,7 +91,7 @@ impl Separator {
         found.map_or(Separator::Blanks, |(mark, _)| Separator::Mark(mark))
     }
 
-    fn records(self, text: &str) -> Result<Vec<Record>, FitError> {
+    pub(super) fn records(self, text: &str) -> Result<Vec<Record>, FitError> {
         let mut records = Vec::new();
         match self {
             Separator::Blanks => {
@@ -129,7 +129,7 @@ impl Separator {
 }
 
 /// The value of a number with a decimal point or a decimal comma; `None` for other text.
-fn number(cell: &str) -> Option<f64> {
+pub(super) fn number(cell: &str) -> Option<f64> {
     cell.replace(',', ".").parse().ok()
 }
 
@@ -282,7 +282,10 @@ fn last_number(name: &str) -> Option<u64> {
 
 /// Whether commas in numbers are decimal. A table that contains both points and commas, or commas that may
 /// separate thousands, is refused.
-fn has_decimal_comma(records: &[Record], separator: Separator) -> Result<bool, FitError> {
+pub(super) fn has_decimal_comma(
+    records: &[Record],
+    separator: Separator,
+) -> Result<bool, FitError> {
     let cells = records
         .iter()
         .flat_map(|record| record.cells.iter().map(|cell| (record.line, cell)));

@@ -164,6 +164,39 @@ impl Outline {
         }
     }
 
+    /// The answer in one line: the headlines, reasons and sentences before the first table, or without a headline the first
+    /// facts or the heading.
+    pub fn answer(&self) -> String {
+        let is_headline = |block: &&Block| matches!(block, Block::Headline(_));
+        let is_table = |block: &&Block| matches!(block, Block::Table(_) | Block::Facts { .. });
+        let below = self.blocks().skip_while(|block| !is_headline(block));
+        let texts = below.take_while(|block| !is_table(block));
+        let said = texts.filter_map(|block| match block {
+            Block::Headline(text) | Block::Reason(text) | Block::Sentence(text) => {
+                Some(text.as_str())
+            }
+            _ => None,
+        });
+        let said: Vec<&str> = said.collect();
+        if !said.is_empty() {
+            return said.join("; ");
+        }
+        let facts = self.blocks().find_map(|block| match block {
+            Block::Facts { facts, .. } => {
+                let words = facts
+                    .iter()
+                    .map(|fact| format!("{} {}", fact.name, fact.in_words()));
+                Some(words.collect::<Vec<_>>().join("; "))
+            }
+            _ => None,
+        });
+        let heading = self.blocks().find_map(|block| match block {
+            Block::Heading(text) => Some(text.clone()),
+            _ => None,
+        });
+        facts.or(heading).unwrap_or_default()
+    }
+
     fn blocks(&self) -> impl Iterator<Item = &Block> {
         self.parts.iter().map(|part| &part.block)
     }
