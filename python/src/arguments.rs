@@ -62,7 +62,15 @@ impl<'py> Options<'py> {
             return Ok(vec![(value.extract()?, None)]);
         }
         let Ok(by_path) = value.cast::<PyMapping>() else {
-            let paths = value.try_iter()?;
+            let Ok(paths) = value.try_iter() else {
+                let allowed = "paths of numbers of the scene".to_owned();
+                return refused(
+                    name,
+                    &value,
+                    allowed,
+                    "write it like [\"guides[0].radius_m\"]",
+                );
+            };
             return paths.map(|path| Ok((path?.extract()?, None))).collect();
         };
         let items = by_path.items()?.into_iter();

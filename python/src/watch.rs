@@ -84,7 +84,7 @@ pub fn compute<T: Send + 'static>(
         let _ = sender.send(guarded(&flag, &gauge.progress, || work(&gauge)));
     });
     let mut told = (0, 0, "");
-    // Steps end in any order on several threads, but within a phase nothing is told that runs back.
+    // Steps end in any order on several threads, but within a phase no report runs back.
     let is_news =
         |state: Shown, told: Shown| (state.1, state.2) != (told.1, told.2) || state.0 > told.0;
     let mut tell = |state| match &progress {

@@ -26,6 +26,7 @@ import sawflutter as sf
         (lambda saw: saw.run_campbell(speed_range=[]), "speed_range must be a first and a last speed"),
         (lambda saw: saw.fit(free={"guides[0].radius_m": (0.1, 0.12, 0.13)}), "must be two bounds"),
         (lambda saw: saw.fit(free={"guides[0].radius_m": 0.1}), "must be two bounds"),
+        (lambda saw: saw.fit(free=3), "free must be paths of numbers.*radius_m"),
         (lambda saw: saw.fit(saw.modes([0, 500, 900]).frequency_hz), "measured must be a speed in rpm"),
         (lambda saw: saw.fit(pd.DataFrame({"rpm": [0.0], "f1": [7.9], "amplitude": [1.0]})), "a column 'amplitude'"),
         (lambda saw: saw.fit(sf.Record(np.ones(40), 10).spectrum()), r"rows\(saw\)"),
