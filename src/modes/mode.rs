@@ -202,14 +202,17 @@ pub fn classify(
 ) -> Vec<Mode> {
     let rigid_noise = rigid_noise(system);
     let forms = Forms::of(system, &pairs);
-    let modes = pairs.iter().zip(forms).filter_map(|(pair, forms)| {
-        let (lambda, q) = pair;
-        let action = forms.action(speed_rad_per_s, lambda.im);
+    let of = |(pair, forms): (&Eigenpair, &Forms)| {
         let slope = coalesced_slope(system, speed_rad_per_s, &pairs, pair)
-            .unwrap_or_else(|| forms.slope(speed_rad_per_s, lambda.im));
-        let slope = if slope.is_finite() { slope } else { c64::ZERO };
+            .unwrap_or_else(|| forms.slope(speed_rad_per_s, pair.0.im));
+        if slope.is_finite() { slope } else { c64::ZERO }
+    };
+    let slopes: Vec<c64> = pairs.iter().zip(&forms).map(of).collect();
+    let all = pairs.into_iter().zip(forms).zip(slopes);
+    let modes = all.filter_map(|(((lambda, q), forms), slope)| {
+        let action = forms.action(speed_rad_per_s, lambda.im);
         let sign = if action < 0.0 { -1 } else { 1 };
-        let mode = Mode::of(*lambda, slope, sign, component, q.clone());
+        let mode = Mode::of(lambda, slope, sign, component, q);
         if lambda.norm() < rigid_noise {
             return Some(Mode {
                 lambda: c64::ZERO,

@@ -7,6 +7,7 @@ use faer::c64;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
+use super::group::Sloped;
 use crate::model::scene::{SpeedRange, rpm};
 
 /// Kind of an instability.
@@ -82,6 +83,17 @@ pub struct CurvePoint {
     pub number: c64,
     /// Derivative of the number with respect to the speed.
     pub slope: c64,
+}
+
+impl CurvePoint {
+    /// A number with its slope at a speed.
+    pub(super) fn new(speed_rad_per_s: f64, (number, slope): Sloped) -> Self {
+        CurvePoint {
+            speed_rad_per_s,
+            number,
+            slope,
+        }
+    }
 }
 
 impl Instability {

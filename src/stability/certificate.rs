@@ -4,8 +4,9 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::band::{Instability, InstabilityKind};
+use super::group::Sloped;
 use super::mode_counts::MiscountedModes;
-use super::sample::Sample;
+use super::sample::{Plane, Sample};
 use crate::model::scene::{SpeedRange, rpm};
 
 /// Results of the checks of a list of bands: comparisons of the Krein index with the spectra, mode counts on the
@@ -85,8 +86,9 @@ pub fn mismatches(
     {
         return Vec::new();
     }
-    let flutter = sample.quadruples().map(|(lambda, _)| lambda.re);
-    let divergence = sample.divergences().next().map(|(lambda, _)| lambda.re);
+    let growth = |(square, _): Sloped| Plane::Squares.growth_per_s(square);
+    let flutter = sample.quadruples().map(growth);
+    let divergence = sample.divergences().next().map(growth);
     let growth = [
         (InstabilityKind::Flutter, flutter.collect()),
         (

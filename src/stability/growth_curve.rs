@@ -120,10 +120,6 @@ pub fn between(
     let expected = c64::new(cubic(|z| z.re), cubic(|z| z.im));
     let speed_rad_per_s = from + share * (to - from);
     let found = numbers.nearest(speed_rad_per_s, expected)?;
-    let (number, slope) = found.unwrap_or((expected, points[0].slope));
-    Ok(CurvePoint {
-        speed_rad_per_s,
-        number,
-        slope,
-    })
+    let sloped = found.unwrap_or((expected, points[0].slope));
+    Ok(CurvePoint::new(speed_rad_per_s, sloped))
 }

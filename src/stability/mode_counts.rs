@@ -108,8 +108,8 @@ pub(super) fn claims(sample: &Sample, height_rad_per_s: f64) -> Vec<Claim> {
             });
         }
     }
-    for (lambda, _) in sample.quadruples() {
-        let frequency = lambda.im;
+    for (square, _) in sample.quadruples() {
+        let frequency = square.sqrt().im;
         let is_clear = |other: f64| (other / frequency - 1.0).abs() > CLEAR;
         let highest = waves.last().map_or(0.0, |w| w.frequency);
         if frequency < highest && waves.iter().all(|w| is_clear(w.frequency)) {

@@ -110,7 +110,7 @@ impl Sample {
         use ModeKind::{Divergent, Flutter, Negative, Positive};
         let mut squares = Vec::new();
         for mode in modes {
-            let (square, slope) = (mode.lambda * mode.lambda, 2.0 * mode.lambda * mode.slope);
+            let (square, slope) = squared((mode.lambda, mode.slope));
             let real = |z: c64| c64::new(z.re, 0.0);
             match mode.kind {
                 Flutter => {
@@ -151,34 +151,28 @@ impl Sample {
         waves
     }
 
-    /// λ and slope of the growing mode of each quadruple, by frequency.
+    /// (σ + iω)² of the growing mode of each quadruple.
     pub fn quadruples(&self) -> impl Iterator<Item = Sloped> {
-        let mut growing: Vec<Sloped> = self
-            .eigenvalues
-            .iter()
-            .filter(|(square, _)| square.im > 0.0)
-            .map(root)
-            .collect();
-        growing.sort_by(|x, y| x.0.im.total_cmp(&y.0.im));
-        growing.into_iter()
+        let all = self.eigenvalues.iter().copied();
+        all.filter(|(square, _)| square.im > 0.0)
     }
 
-    /// Real λ > 0 with slopes, the fastest growing first.
+    /// σ² of real λ = σ > 0, the fastest growing first.
     pub fn divergences(&self) -> impl Iterator<Item = Sloped> {
-        let positive = self.eigenvalues.iter().take_while(|(z, _)| z.re > 0.0);
-        positive.filter(|(z, _)| z.im == 0.0).map(root)
+        let all = self.eigenvalues.iter().copied();
+        let positive = all.take_while(|(square, _)| square.re > 0.0);
+        positive.filter(|(square, _)| square.im == 0.0)
     }
 
     /// Highest frequency of waves that may coalesce and of quadruples, in rad/s.
     pub fn highest_rad_per_s(&self) -> f64 {
         let waves = self.waves().into_iter().map(|wave| wave.frequency);
-        let quadruples = self.quadruples().map(|(lambda, _)| lambda.im);
+        let quadruples = self.quadruples().map(|(square, _)| square.sqrt().im);
         waves.chain(quadruples).fold(0.0, f64::max)
     }
 }
 
-/// λ and its slope from the square.
-fn root((square, slope): &Sloped) -> Sloped {
-    let lambda = square.sqrt();
-    (lambda, slope / (2.0 * lambda))
+/// λ² and its slope from λ and its slope.
+pub fn squared((lambda, slope): Sloped) -> Sloped {
+    (lambda * lambda, 2.0 * lambda * slope)
 }

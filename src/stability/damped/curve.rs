@@ -100,11 +100,7 @@ fn begun(open: &mut Vec<Tip>, values: Vec<Sloped>, speed_rad_per_s: f64) -> Vec<
 }
 
 fn point(speed_rad_per_s: f64, (number, slope): Sloped) -> CurvePoint {
-    CurvePoint {
-        speed_rad_per_s,
-        number,
-        slope: finite(slope),
-    }
+    CurvePoint::new(speed_rad_per_s, (number, finite(slope)))
 }
 
 fn extended((_, mut curve): Tip, value: Sloped, speed_rad_per_s: f64) -> Tip {

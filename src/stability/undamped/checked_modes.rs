@@ -12,7 +12,7 @@ use crate::modes::{DoubleEigenvalue, Mode, SpectralModel, SpectrumError, krein_i
 use crate::stability::certificate::Certificate;
 use crate::stability::group::Sloped;
 use crate::stability::growth_curve::Numbers;
-use crate::stability::sample::{BESIDES, Plane, Sample};
+use crate::stability::sample::{BESIDES, Plane, Sample, squared};
 
 /// Relative distance of the search from critical speeds: λ² passes through zero there and is accurate only to
 /// 1e-15 of the stiffness.
@@ -67,17 +67,17 @@ impl Numbers for CheckedModes<'_> {
         expected: c64,
     ) -> Result<Option<Sloped>, SpectrumError> {
         let wanted = c64::new(expected.re, expected.im.max(0.0)).sqrt();
-        let square = |(lambda, slope): (c64, c64)| (lambda * lambda, 2.0 * lambda * slope);
         let found = self.model.next_to(speed_rad_per_s, wanted);
         let is_same =
             |(lambda, _): &(c64, c64)| (lambda - wanted).norm() <= SAME_GROWTH * wanted.re;
         if let Some(found) = found.filter(is_same) {
-            return Ok(Some(square(found)));
+            return Ok(Some(squared(found)));
         }
         let sample = self.at(speed_rad_per_s)?;
         let growing = sample.quadruples().chain(sample.divergences());
-        let nearest = smallest(growing, |(lambda, _)| (lambda - wanted).norm());
-        Ok(nearest.map(square))
+        Ok(smallest(growing, |(square, _)| {
+            (square.sqrt() - wanted).norm()
+        }))
     }
 }
 
@@ -242,10 +242,8 @@ impl<'a> CheckedModes<'a> {
     /// [`SpectrumError`] when the eigenproblem fails.
     pub fn divergence(&self, speed_rad_per_s: f64) -> Result<f64, SpectrumError> {
         let sample = self.guess_at(speed_rad_per_s)?;
-        Ok(sample
-            .divergences()
-            .next()
-            .map_or(0.0, |(lambda, _)| lambda.re))
+        let fastest = sample.divergences().next();
+        Ok(fastest.map_or(0.0, |(square, _)| square.re.sqrt()))
     }
 
     /// Whether a critical speed lies between two speeds.

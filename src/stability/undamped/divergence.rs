@@ -1,10 +1,8 @@
 //! Divergence: a real λ > 0 between critical speeds.
 
-use faer::c64;
-
 use super::checked_modes::{CRITICAL_GAP, CRITICAL_GROUP, CheckedModes};
 use super::flutter::VICINITY;
-use super::growing_stretch::{End, GrowingStretch};
+use super::growing_stretch::{End, GrowingStretch, UNKNOWN};
 use crate::model::scene::SpeedRange;
 use crate::modes::{SpectralModel, SpectrumError, smallest};
 use crate::stability::band::{CurvePoint, Instability, InstabilityKind};
@@ -54,12 +52,8 @@ fn diverges(sample: &Sample) -> bool {
 
 /// λ² of the fastest growing real λ.
 fn fastest(sample: &Sample) -> Option<CurvePoint> {
-    let (lambda, slope) = sample.divergences().next()?;
-    Some(CurvePoint {
-        speed_rad_per_s: sample.speed_rad_per_s,
-        number: lambda * lambda,
-        slope: 2.0 * lambda * slope,
-    })
+    let square = sample.divergences().next()?;
+    Some(CurvePoint::new(sample.speed_rad_per_s, square))
 }
 
 /// Speeds between two samples at which divergence may be interrupted, because two real λ coalesce,
@@ -157,14 +151,16 @@ fn edge(critical: &[f64], coalescences: &[CurvePoint], stable: Option<f64>, unst
         None => (unstable, End::Unknown(unstable)),
     };
     coalescence(to).map_or(otherwise, |point| {
-        // The slope of the faster of both is unlimited.
-        let slope = c64::from(f64::NAN);
+        // The slope of the faster of both is unbounded.
+        let slope = UNKNOWN;
         End::Coalescence(CurvePoint { slope, ..*point })
     })
 }
 
 #[cfg(test)]
 mod tests {
+    use faer::c64;
+
     use super::*;
 
     fn double(speed_rad_per_s: f64) -> CurvePoint {

@@ -4,16 +4,16 @@ use faer::c64;
 use rayon::prelude::*;
 
 use super::checked_modes::CheckedModes;
-use super::growing_stretch::{End, GrowingStretch};
+use super::growing_stretch::{End, GrowingStretch, UNKNOWN};
 use super::quadruples::{Bound, Stretch, stretches};
 use crate::modes::{DoubleEigenvalue, SpectrumError};
 use crate::stability::band::{CurvePoint, InstabilityKind};
 use crate::stability::group::Sloped;
 use crate::stability::growth_curve::Numbers;
 use crate::stability::pieces::Piece;
-use crate::stability::sample::Plane;
+use crate::stability::sample::{Plane, squared};
 
-/// Intervals of quadruples in the pieces of a search, by their begin.
+/// Intervals of quadruples in the pieces of a search.
 ///
 /// # Errors
 /// [`SpectrumError`] when an eigenproblem fails.
@@ -25,9 +25,7 @@ pub fn flutter(
         .par_iter()
         .map(|stretch| confirmed(checked, stretch))
         .collect::<Result<_, _>>()?;
-    let mut found: Vec<GrowingStretch> = confirmed.into_iter().flatten().collect();
-    found.sort_by(|x, y| x.ends[0].speed().total_cmp(&y.ends[0].speed()));
-    Ok(found)
+    Ok(confirmed.into_iter().flatten().collect())
 }
 
 /// Ends of flutter that are coalescences of two real λ.
@@ -52,15 +50,8 @@ fn confirmed(
             return Ok(None);
         };
         let found = checked.nearest(speed_rad_per_s, expected)?;
-        points.extend(
-            found
-                .filter(|found| is_expected(found, expected))
-                .map(|(number, slope)| CurvePoint {
-                    speed_rad_per_s,
-                    number,
-                    slope,
-                }),
-        );
+        let found = found.filter(|found| is_expected(found, expected));
+        points.extend(found.map(|found| CurvePoint::new(speed_rad_per_s, found)));
     }
     let (Some(&first), Some(&last)) = (points.first(), points.last()) else {
         return Ok(None);
@@ -114,23 +105,14 @@ fn end(checked: &CheckedModes<'_>, stretch: &Stretch<'_>, bound: Bound, point: C
         let way = (expected - inside).abs();
         off <= SAME_END * way + margin && before.max(beyond) <= margin && is_outwards
     };
-    let unknown = c64::from(f64::NAN);
     let found = checked.double_eigenvalue(expected, c64::new(square, 0.0).sqrt());
     End::Coalescence(match found.filter(is_same) {
-        Some(found) => CurvePoint {
-            speed_rad_per_s: found.speed_rad_per_s,
-            number: c64::from((found.lambda * found.lambda).re),
+        Some(found) => {
             // The growth of the quadruple is the mean of the real λ.
-            slope: if is_real {
-                2.0 * found.lambda * found.mean_slope
-            } else {
-                unknown
-            },
-        },
-        None => CurvePoint {
-            speed_rad_per_s: expected,
-            number: c64::from(square),
-            slope: unknown,
-        },
+            let (number, slope) = squared((found.lambda, found.mean_slope));
+            let slope = if is_real { slope } else { UNKNOWN };
+            CurvePoint::new(found.speed_rad_per_s, (c64::from(number.re), slope))
+        }
+        None => CurvePoint::new(expected, (c64::from(square), UNKNOWN)),
     })
 }

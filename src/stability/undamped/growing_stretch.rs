@@ -9,6 +9,9 @@ use crate::stability::growth_curve::{GrowthCurve, Numbers, between};
 use crate::stability::sample::Plane;
 use crate::stability::search_result::Found;
 
+/// A slope that is unknown or unbounded.
+pub const UNKNOWN: c64 = c64::new(f64::NAN, 0.0);
+
 /// Begin or end of an interval.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum End {
@@ -35,11 +38,7 @@ impl End {
     fn point(&self) -> Option<CurvePoint> {
         match self {
             End::Coalescence(point) => Some(*point),
-            End::Critical(speed_rad_per_s) => Some(CurvePoint {
-                speed_rad_per_s: *speed_rad_per_s,
-                number: c64::ZERO,
-                slope: c64::from(f64::NAN),
-            }),
+            End::Critical(speed) => Some(CurvePoint::new(*speed, (c64::ZERO, UNKNOWN))),
             End::Range(_) | End::Unknown(_) => None,
         }
     }
@@ -158,10 +157,6 @@ fn continued(
     let nearest = *smallest(known, away).unwrap_or(&known[0]);
     let step = speed_rad_per_s - nearest.speed_rad_per_s;
     let found = numbers.nearest(speed_rad_per_s, nearest.number + nearest.slope * step)?;
-    let (number, slope) = found.unwrap_or((nearest.number, nearest.slope));
-    Ok(CurvePoint {
-        speed_rad_per_s,
-        number,
-        slope,
-    })
+    let sloped = found.unwrap_or((nearest.number, nearest.slope));
+    Ok(CurvePoint::new(speed_rad_per_s, sloped))
 }

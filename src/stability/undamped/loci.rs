@@ -13,6 +13,7 @@ use crate::modes::branches::{Branch, Campbell, SpeedSample};
 use crate::modes::{Mode, ModeKind, NamedMode, smallest};
 use crate::stability::band::Instability;
 use crate::stability::interpolation::Cubic;
+use crate::stability::sample::squared;
 
 /// Paths of two eigenvalues over speed.
 #[derive(Debug, Clone, PartialEq)]
@@ -84,14 +85,17 @@ impl Node {
         if !matches!(kinds, [Flutter, Decaying] | [Positive, Negative]) {
             return None;
         }
-        let [first, second] = modes.map(|mode| mode.lambda * mode.lambda);
-        let slopes = modes.map(|mode| 2.0 * mode.lambda * mode.slope);
-        let half = 0.5 * (first - second);
+        let [first, second] = modes.map(|mode| squared((mode.lambda, mode.slope)));
+        let [mean, half] = [
+            (first.0 + second.0, first.1 + second.1),
+            (first.0 - second.0, first.1 - second.1),
+        ]
+        .map(|(number, slope)| (0.5 * number, 0.5 * slope));
         Some(Node {
             speed,
-            mean: [0.5 * (first + second).re, 0.5 * (slopes[0] + slopes[1]).re],
-            square: [(half * half).re, (half * (slopes[0] - slopes[1])).re],
-            is_first_larger: kinds[0] == Positive && half.re > 0.0,
+            mean: [mean.0.re, mean.1.re],
+            square: [(half.0 * half.0).re, (2.0 * half.0 * half.1).re],
+            is_first_larger: kinds[0] == Positive && half.0.re > 0.0,
         })
     }
 }

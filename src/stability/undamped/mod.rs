@@ -74,8 +74,8 @@ pub(super) fn charted(
     let mut samples = searched_samples(model, solved, drawn);
     let unsearched = speeds_beside(&samples, speeds);
     samples.extend(branches::sample(model, &unsearched, progress)?);
-    let of_bands = of_bands(&found.instabilities, &samples, range);
-    samples.extend(branches::sample(model, &of_bands, &|_, _| ())?);
+    let added = speeds_of_bands(&found.instabilities, &samples, range);
+    samples.extend(branches::sample(model, &added, &|_, _| ())?);
     samples.sort_by(|x, y| x.speed_rad_per_s.total_cmp(&y.speed_rad_per_s));
     let samples = branches::refined(model, samples, closeness)?;
     let drawn: Vec<Sample> = samples.iter().map(numbers).collect();
@@ -247,7 +247,11 @@ fn away_from_critical(model: &SpectralModel, mut speeds: Vec<f64>) -> Vec<f64> {
 const BESIDE_EDGE: f64 = 0.06;
 
 /// Speeds at which the largest growth and both edges of bands are drawn, except those near which there are samples.
-fn of_bands(instabilities: &[Instability], samples: &[SpeedSample], range: SpeedRange) -> Vec<f64> {
+fn speeds_of_bands(
+    instabilities: &[Instability],
+    samples: &[SpeedSample],
+    range: SpeedRange,
+) -> Vec<f64> {
     let is_sampled = |within: SpeedRange| {
         let mut speeds = samples.iter().map(|sample| sample.speed_rad_per_s);
         speeds.any(|speed| within.contains(speed))

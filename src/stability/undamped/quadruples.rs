@@ -121,12 +121,7 @@ fn quadruples_of(sample: &Sample) -> impl Iterator<Item = usize> {
 }
 
 fn point(sample: &Sample, place: usize) -> CurvePoint {
-    let (number, slope) = sample.eigenvalues[place];
-    CurvePoint {
-        speed_rad_per_s: sample.speed_rad_per_s,
-        number,
-        slope,
-    }
+    CurvePoint::new(sample.speed_rad_per_s, sample.eigenvalues[place])
 }
 
 fn coalescence(expected_rad_per_s: f64, outside_rad_per_s: f64) -> Bound {

@@ -28,7 +28,6 @@ const TASKS = [
   { name: "map", title: "Map", what: "Stable and unstable areas over one number and the speed, or over two numbers at the operating speed, within usual bounds: a radius anywhere on the blade, a stiffness within a factor of thirty, an angle within 60°, other numbers within 20 %." },
 ];
 
-
 const button = (textContent, onclick) => node("button", { type: "button", textContent, onclick });
 const pictureOf = (svg) => URL.createObjectURL(new Blob([svg], { type: "image/svg+xml" }));
 
