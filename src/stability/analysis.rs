@@ -2,7 +2,7 @@
 
 use faer::c64;
 
-use super::band::{Instability, InstabilityKind};
+use super::band::Instability;
 use super::basis::{ChosenBasis, FALL};
 use super::basis_limit::OutOfReach;
 use super::chart::{CHART_SPEEDS, drawn};
@@ -12,6 +12,7 @@ use super::estimate::Estimates;
 use super::excitation::{Crossing, crossings};
 use super::expected_work::ExpectedWork;
 use super::heat::HeatLimits;
+use super::instability_kind::InstabilityKind;
 use super::ladder::next_smaller;
 use super::listed_pair::Listed;
 use super::onsets::Onsets;

@@ -4,31 +4,10 @@ use std::f64::consts::TAU;
 use std::fmt;
 
 use faer::c64;
-use schemars::JsonSchema;
-use serde::{Deserialize, Serialize};
 
 use super::group::Sloped;
+use super::instability_kind::InstabilityKind;
 use crate::model::scene::{SpeedRange, rpm};
-
-/// Kind of an instability.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
-#[serde(rename_all = "lowercase")]
-pub enum InstabilityKind {
-    /// Exponential growth without oscillation.
-    Divergence,
-    /// Growing oscillation.
-    Flutter,
-}
-
-/// Writes "divergence" or "flutter".
-impl fmt::Display for InstabilityKind {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.pad(match self {
-            InstabilityKind::Divergence => "divergence",
-            InstabilityKind::Flutter => "flutter",
-        })
-    }
-}
 
 /// A band of unstable speeds.
 #[derive(Debug, Clone, PartialEq)]

@@ -3,8 +3,9 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::band::{Instability, InstabilityKind};
+use super::band::Instability;
 use super::group::Sloped;
+use super::instability_kind::InstabilityKind;
 use super::mode_counts::MiscountedModes;
 use super::sample::{Plane, Sample};
 use crate::model::scene::{SpeedRange, rpm};

@@ -12,6 +12,7 @@ use faer::{Mat, c64};
 
 use crate::model::linalg::{complex_eigenvalues, real_eigenvalues};
 
+use super::instability_kind::InstabilityKind;
 use super::interpolation::{self, sign_changes};
 use super::root::place_of_zero;
 
@@ -191,27 +192,26 @@ impl Group {
     }
 }
 
-/// Number of steps in which a group of more than two numbers is searched for speeds at which a pair becomes
-/// complex.
+/// Number of steps in which a group of more than two numbers is searched for speeds at which two of them coalesce.
 const STEPS: usize = 32;
 /// Share of the largest number of a group below which an imaginary part is rounding.
 const REAL: f64 = 1e-9;
 
 impl Group {
-    /// Intervals of the piece, as shares from 0 to 1, over which the group has at least one pair of
-    /// conjugates, then those over which it has at least two, and so on. The numbers of the group must be
-    /// real or conjugates.
-    pub fn complex_stretches(&self) -> Vec<Vec<[f64; 2]>> {
-        let pairs = |t: f64| self.complex_pairs(t);
+    /// Intervals of the piece, as shares from 0 to 1, over which at least one number λ² of the group grows in a given way, then those
+    /// over which at least two do, and so on, each with the number of those before. The numbers must be real or conjugates, and none may
+    /// pass zero.
+    pub fn stretches(&self, kind: InstabilityKind) -> Vec<(usize, [f64; 2])> {
+        let count = |t: f64| self.growing(kind, t);
         let mut bounds = match self.coefficients.as_slice() {
-            [] => return Vec::new(),
+            [] => Vec::new(),
             [last] => sign_changes(&last.real()),
             _ => (1..=STEPS)
                 .map(|k| [k - 1, k].map(|k| k as f64 / STEPS as f64))
-                .filter(|ends| pairs(ends[0]) != pairs(ends[1]))
+                .filter(|ends| count(ends[0]) != count(ends[1]))
                 .map(|ends| {
-                    let first = pairs(ends[0]);
-                    place_of_zero(ends, |t| if pairs(t) == first { 1.0 } else { -1.0 })
+                    let first = count(ends[0]);
+                    place_of_zero(ends, |t| if count(t) == first { 1.0 } else { -1.0 })
                 })
                 .collect(),
         };
@@ -219,31 +219,33 @@ impl Group {
         bounds.push(1.0);
         let counts: Vec<usize> = bounds
             .windows(2)
-            .map(|pair| pairs(0.5 * (pair[0] + pair[1])))
+            .map(|pair| count(0.5 * (pair[0] + pair[1])))
             .collect();
-        let of_level = |level: usize| {
-            let mut stretches: Vec<[f64; 2]> = Vec::new();
+        let mut stretches: Vec<(usize, [f64; 2])> = Vec::new();
+        for rank in 0..counts.iter().copied().max().unwrap_or(0) {
             for (ends, count) in bounds.windows(2).zip(&counts) {
                 let (from, to) = (ends[0], ends[1]);
                 match stretches.last_mut() {
-                    Some(last) if *count >= level && last[1] == from => last[1] = to,
-                    _ if *count >= level => stretches.push([from, to]),
-                    _ => (),
+                    _ if *count <= rank => (),
+                    Some((last, stretch)) if *last == rank && stretch[1] == from => stretch[1] = to,
+                    _ => stretches.push((rank, [from, to])),
                 }
             }
-            stretches
-        };
-        (1..=self.size() / 2).map(of_level).collect()
+        }
+        stretches
     }
 
-    /// Number of pairs of conjugates at a share of the piece.
-    fn complex_pairs(&self, t: f64) -> usize {
-        if let [last] = self.coefficients.as_slice() {
-            return usize::from(last.at(t).re > 0.0);
-        }
+    /// Number of λ² at a share of the piece that grow in a given way.
+    fn growing(&self, kind: InstabilityKind, t: f64) -> usize {
         let values = self.at(self.from_rad_per_s + t * self.width_rad_per_s);
         let size = values.iter().map(|z| z.norm()).fold(0.0, f64::max);
-        values.iter().filter(|z| z.im > REAL * size).count()
+        let real = |z: &c64| z.im.abs() <= REAL * size && self.size() > 2;
+        let exact = values
+            .iter()
+            .map(|z| if real(z) { c64::from(z.re) } else { *z });
+        exact
+            .filter(|z| InstabilityKind::of_square(*z) == Some(kind))
+            .count()
     }
 }
 

@@ -3,6 +3,7 @@
 use faer::c64;
 
 use super::group::Sloped;
+use super::instability_kind::InstabilityKind;
 use crate::modes::{Mode, ModeKind};
 
 /// Number of modes above the highest accurate frequency among which a search finds a gap to end in.
@@ -151,17 +152,24 @@ impl Sample {
         waves
     }
 
+    /// Indices of the numbers λ² that grow in a given way, the fastest divergence first.
+    pub fn growing(&self, kind: InstabilityKind) -> impl Iterator<Item = usize> {
+        let all = self.eigenvalues.iter().enumerate();
+        let of_kind =
+            all.filter(move |(_, (square, _))| InstabilityKind::of_square(*square) == Some(kind));
+        of_kind.map(|(place, _)| place)
+    }
+
     /// (σ + iω)² of the growing mode of each quadruple.
     pub fn quadruples(&self) -> impl Iterator<Item = Sloped> {
-        let all = self.eigenvalues.iter().copied();
-        all.filter(|(square, _)| square.im > 0.0)
+        self.growing(InstabilityKind::Flutter)
+            .map(|place| self.eigenvalues[place])
     }
 
     /// σ² of real λ = σ > 0, the fastest growing first.
     pub fn divergences(&self) -> impl Iterator<Item = Sloped> {
-        let all = self.eigenvalues.iter().copied();
-        let positive = all.take_while(|(square, _)| square.re > 0.0);
-        positive.filter(|(square, _)| square.im == 0.0)
+        self.growing(InstabilityKind::Divergence)
+            .map(|place| self.eigenvalues[place])
     }
 
     /// Highest frequency of waves that may coalesce and of quadruples, in rad/s.

@@ -10,7 +10,8 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::analysis::Analysis;
-use super::band::{Instability, InstabilityKind};
+use super::band::Instability;
+use super::instability_kind::InstabilityKind;
 use crate::model::plate::Plate;
 use crate::model::scene::{Parameter, Quantity, Scene, SceneError, SceneFile};
 use crate::model::system::GyroscopicSystem;

@@ -13,7 +13,8 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::band::{CurvePoint, Instability, InstabilityKind};
+use super::band::{CurvePoint, Instability};
+use super::instability_kind::InstabilityKind;
 use super::interpolation::Cubic;
 use super::root::share_of_zero;
 use crate::model::scene::SpeedRange;

@@ -6,8 +6,9 @@ use super::spectrum::Component;
 use crate::model::scene::SpeedRange;
 use crate::model::tuning::Tuned;
 use crate::modes::SpectrumError;
-use crate::stability::band::{CurvePoint, Instability, InstabilityKind};
+use crate::stability::band::{CurvePoint, Instability};
 use crate::stability::growth_curve::{GrowthCurve, zero};
+use crate::stability::instability_kind::InstabilityKind;
 
 /// Two humps of growth are separate bands if growth between them falls below this share of the lower hump. Each
 /// coalescence of two modes gives a hump; growth by damping alone, between them, is slow and even.

@@ -1,7 +1,8 @@
 //! Estimated errors of a band.
 
-use crate::stability::band::{Instability, InstabilityKind};
+use crate::stability::band::Instability;
 use crate::stability::basis::REMAINDER;
+use crate::stability::instability_kind::InstabilityKind;
 
 /// Factor for the estimated errors of growth rates, which converge less evenly than speeds: on twelve random
 /// saws the true error was up to 2.9 times the estimate without the factor.

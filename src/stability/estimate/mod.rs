@@ -10,8 +10,9 @@ pub use self::band_error::BandError;
 use self::band_error::magnitude;
 use self::damped::fastest;
 
-use super::band::{Instability, InstabilityKind};
+use super::band::Instability;
 use super::basis::REMAINDER;
+use super::instability_kind::InstabilityKind;
 use super::search_result::StabilityChart;
 use crate::model::scene::SpeedRange;
 use crate::model::system::GyroscopicSystem;

@@ -235,17 +235,6 @@ impl<'a> CheckedModes<'a> {
         self.model.double_eigenvalue(0, speed_rad_per_s, expected)
     }
 
-    /// Largest growth rate of a divergent mode, in 1/s, without a check by the Krein index, which rounding
-    /// changes next to a critical speed; 0 without such a mode.
-    ///
-    /// # Errors
-    /// [`SpectrumError`] when the eigenproblem fails.
-    pub fn divergence(&self, speed_rad_per_s: f64) -> Result<f64, SpectrumError> {
-        let sample = self.guess_at(speed_rad_per_s)?;
-        let fastest = sample.divergences().next();
-        Ok(fastest.map_or(0.0, |(square, _)| square.re.sqrt()))
-    }
-
     /// Whether a critical speed lies between two speeds.
     pub fn spans_critical(&self, from_rad_per_s: f64, to_rad_per_s: f64) -> bool {
         let below = |speed| self.model.negative_stiffness_directions(speed);

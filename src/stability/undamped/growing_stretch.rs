@@ -4,8 +4,9 @@ use faer::c64;
 
 use crate::model::scene::SpeedRange;
 use crate::modes::{SpectrumError, smallest};
-use crate::stability::band::{CurvePoint, Instability, InstabilityKind};
+use crate::stability::band::{CurvePoint, Instability};
 use crate::stability::growth_curve::{GrowthCurve, Numbers, between};
+use crate::stability::instability_kind::InstabilityKind;
 use crate::stability::sample::Plane;
 use crate::stability::search_result::Found;
 

@@ -1,18 +1,17 @@
 //! Bands of an undamped blade over a range of speeds, and the speeds of its chart.
 //!
-//! Modes have Krein signs, and λ² is followed over the speed. Its quadruples are bands of flutter ([`flutter`]), its real numbers above
-//! zero are bands of divergence ([`divergence`]), each an interval with two ends ([`growing_stretch`]). The bands are checked and proven
-//! by counts ([`certification`], [`proof`]).
+//! Modes have Krein signs, and λ² is followed over the speed. Its quadruples are bands of flutter, its real numbers above zero bands of
+//! divergence. Both are intervals of the pieces of a search ([`stretches`]) with two ends ([`growing`]) and a largest growth
+//! ([`growing_stretch`]). The bands are checked and proven by counts ([`certification`], [`proof`]).
 
 mod certification;
 mod checked_modes;
-mod divergence;
-mod flutter;
+mod growing;
 mod growing_stretch;
 mod interpolated;
 mod loci;
 mod proof;
-mod quadruples;
+mod stretches;
 
 use rayon::prelude::*;
 
@@ -27,9 +26,10 @@ use crate::model::plate::Plate;
 use crate::model::scene::SpeedRange;
 use crate::modes::branches::{self, Closeness, SpeedSample};
 use crate::modes::{NamedCriticalSpeed, SpectralModel, SpectrumError, clear_range, searched_range};
-use crate::stability::band::{Instability, InstabilityKind};
+use crate::stability::band::Instability;
 use crate::stability::detail::Detail;
 use crate::stability::error::AnalysisError;
+use crate::stability::instability_kind::InstabilityKind;
 use crate::stability::options::AnalysisOptions;
 use crate::stability::sample::Sample;
 use crate::stability::search_result::{FoundBands, StabilityChart};

@@ -3,13 +3,13 @@
 use rayon::prelude::*;
 
 use super::checked_modes::{CheckedModes, SolvedSpeed};
-use super::divergence::{close_pairs, divergence};
-use super::flutter::{flutter, real_ends};
+use super::growing::growing;
 use super::proof::Proof;
 use crate::model::scene::{Accuracy, SpeedRange};
 use crate::modes::{SpectralModel, SpectrumError};
-use crate::stability::band::{Instability, InstabilityKind};
+use crate::stability::band::Instability;
 use crate::stability::certificate::{Certificate, ContradictedBands, mismatches};
+use crate::stability::instability_kind::InstabilityKind;
 use crate::stability::mode_counts::{MiscountedModes, ModeCounts};
 use crate::stability::pieces::{Piece, Search};
 use crate::stability::sample::{Plane, Sample};
@@ -112,14 +112,11 @@ fn searched(
     };
     let pieces = searched_pieces(&checked, speeds)?;
     let samples = checked.samples();
-    let mut stretches = flutter(&checked, &pieces)?;
-    let real = real_ends(&stretches);
-    stretches.extend(divergence(model, &checked, &samples, &real)?);
-    let mut found: Vec<Found> = stretches
+    let critical: Vec<f64> = model.critical.iter().map(|c| c.speed_rad_per_s).collect();
+    let found: Vec<Found> = growing(&checked, &pieces, &critical)?
         .par_iter()
         .map(|stretch| stretch.found(&checked, range))
         .collect::<Result<_, _>>()?;
-    found.extend(close_pairs(model, &checked, speeds, range)?);
     let (mut bands, mut within) = (Vec::new(), Vec::new());
     for Found {
         whole,

@@ -1,0 +1,491 @@
+//! Intervals of speed over which a number λ² of an undamped blade grows, from the pieces of a search.
+
+use faer::c64;
+
+use crate::modes::nearest_pairs;
+use crate::stability::band::CurvePoint;
+use crate::stability::instability_kind::InstabilityKind;
+use crate::stability::pieces::{Grouped, Piece};
+use crate::stability::sample::{Plane, Sample};
+
+/// Begin or end of an interval.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Bound {
+    /// Coalescence of two numbers.
+    Coalescence {
+        /// Speed at which the interpolated numbers coalesce.
+        expected_rad_per_s: f64,
+        /// Nearest speed of the search outside the interval.
+        outside_rad_per_s: f64,
+    },
+    /// Critical speed.
+    Critical(f64),
+    /// End of the search inside the interval.
+    Range(f64),
+    /// Speed up to which the number could be followed: it crosses the highest frequency, or the search passes the whole interval in
+    /// one step.
+    Unfollowed(f64),
+}
+
+impl Bound {
+    fn speed(&self) -> f64 {
+        match self {
+            Bound::Coalescence {
+                expected_rad_per_s: speed,
+                ..
+            }
+            | Bound::Critical(speed)
+            | Bound::Range(speed)
+            | Bound::Unfollowed(speed) => *speed,
+        }
+    }
+}
+
+/// Interval over which a number grows: for flutter the square (σ + iω)² with σω > 0 of a quadruple ±σ ± iω, for divergence σ² of a real
+/// pair ±σ.
+#[derive(Debug, Clone)]
+pub struct Stretch<'a> {
+    pub kind: InstabilityKind,
+    pub begin: Bound,
+    pub end: Bound,
+    /// The number at the speeds of the search within the interval.
+    pub points: Vec<CurvePoint>,
+    parts: Vec<Part<'a>>,
+}
+
+/// Part of an interval within a piece.
+#[derive(Debug, Clone)]
+struct Part<'a> {
+    from_rad_per_s: f64,
+    to_rad_per_s: f64,
+    grouped: &'a Grouped,
+    /// Number of larger numbers of the same kind in the group.
+    rank: usize,
+}
+
+/// Number of steps in which a part of an interval is searched for its largest growth.
+const STEPS: usize = 16;
+
+impl Stretch<'_> {
+    /// Interpolated number at a speed, in 1/s², of several the largest; `None` outside the interval.
+    pub fn square(&self, speed_rad_per_s: f64) -> Option<c64> {
+        let covers =
+            |part: &&Part<'_>| (part.from_rad_per_s..=part.to_rad_per_s).contains(&speed_rad_per_s);
+        let size = |square: &c64| self.kind.size(*square);
+        let squares = self.parts.iter().filter(covers).filter_map(|part| {
+            let mut values = part.grouped.group.at(speed_rad_per_s);
+            values.sort_by(|x, y| size(y).total_cmp(&size(x)));
+            values.get(part.rank).copied()
+        });
+        let largest = squares.max_by(|x, y| size(x).total_cmp(&size(y)))?;
+        Some(c64::new(largest.re, largest.im.max(0.0)))
+    }
+
+    /// Speed of the largest interpolated growth; `None` if the interval is not interpolated.
+    pub fn fastest_rad_per_s(&self) -> Option<f64> {
+        let growth = |speed: f64| {
+            let square = self.square(speed);
+            square.map_or(0.0, |square| Plane::Squares.growth_per_s(square))
+        };
+        let speeds = self.parts.iter().flat_map(|part| {
+            let (from, to) = (part.from_rad_per_s, part.to_rad_per_s);
+            let at = |k: usize| from + (to - from) * k as f64 / STEPS as f64;
+            (0..=STEPS).map(at).collect::<Vec<f64>>()
+        });
+        speeds.max_by(|x, y| growth(*x).total_cmp(&growth(*y)))
+    }
+
+    /// Middle of the interval.
+    pub fn middle_rad_per_s(&self) -> f64 {
+        0.5 * (self.begin.speed() + self.end.speed())
+    }
+}
+
+/// Intervals of flutter, of one quadruple each, and intervals of divergence, in which at least one λ > 0 is real. `critical` are the
+/// critical speeds, ascending.
+pub fn stretches<'a>(pieces: &'a [Piece], critical: &[f64]) -> Vec<Stretch<'a>> {
+    let of = |kind| Reader::new(kind, pieces, critical).read();
+    let mut all = of(InstabilityKind::Flutter);
+    all.extend(united(of(InstabilityKind::Divergence)));
+    all
+}
+
+/// Intervals that do not overlap, each with the largest of the numbers at every speed.
+fn united(mut stretches: Vec<Stretch<'_>>) -> Vec<Stretch<'_>> {
+    stretches.sort_by(|x, y| x.begin.speed().total_cmp(&y.begin.speed()));
+    let mut united: Vec<Stretch<'_>> = Vec::new();
+    for stretch in stretches {
+        match united.last_mut() {
+            Some(last) if stretch.begin.speed() < last.end.speed() => {
+                if stretch.end.speed() > last.end.speed() {
+                    last.end = stretch.end;
+                }
+                last.points.extend(stretch.points);
+                last.parts.extend(stretch.parts);
+            }
+            _ => united.push(stretch),
+        }
+    }
+    for stretch in &mut united {
+        let order = |x: &CurvePoint, y: &CurvePoint| {
+            let by_speed = x.speed_rad_per_s.total_cmp(&y.speed_rad_per_s);
+            by_speed.then(y.number.re.total_cmp(&x.number.re))
+        };
+        if stretch.kind == InstabilityKind::Divergence {
+            stretch.points.sort_by(order);
+            stretch.points.dedup_by_key(|point| point.speed_rad_per_s);
+        }
+    }
+    united
+}
+
+/// An unfinished interval and the index of its number in the last sample.
+type Open<'a> = (Stretch<'a>, usize);
+
+/// Reader of the growing numbers of one kind.
+struct Reader<'a, 'c> {
+    kind: InstabilityKind,
+    pieces: &'a [Piece],
+    critical: &'c [f64],
+    ended: Vec<Stretch<'a>>,
+}
+
+impl<'a, 'c> Reader<'a, 'c> {
+    fn new(kind: InstabilityKind, pieces: &'a [Piece], critical: &'c [f64]) -> Self {
+        Reader {
+            kind,
+            pieces,
+            critical,
+            ended: Vec::new(),
+        }
+    }
+
+    /// The intervals in the order of their ends.
+    fn read(mut self) -> Vec<Stretch<'a>> {
+        let (Some(first), Some(last)) = (self.pieces.first(), self.pieces.last()) else {
+            return Vec::new();
+        };
+        let [sample, _] = &first.ends;
+        let begin = Bound::Range(sample.speed_rad_per_s);
+        let begun = sample
+            .growing(self.kind)
+            .map(|place| self.begun(begin, sample, place));
+        let mut open: Vec<Open<'a>> = begun.collect();
+        for piece in self.pieces {
+            open = if self.is_interpolated(piece) {
+                self.across(piece, open)
+            } else {
+                self.across_unsettled(piece, open)
+            };
+        }
+        self.end_all(open, Bound::Range(last.ends[1].speed_rad_per_s));
+        self.ended
+    }
+
+    /// Whether the groups of a piece show where its growing numbers begin and end. The search has a speed on each side of every critical
+    /// speed and none between them.
+    fn is_interpolated(&self, piece: &Piece) -> bool {
+        let passes_zero = self.kind == InstabilityKind::Divergence
+            && self.critical.iter().any(|speed| piece.contains(*speed));
+        !piece.groups.is_empty() && !passes_zero
+    }
+
+    fn begun(&self, begin: Bound, sample: &Sample, place: usize) -> Open<'a> {
+        let stretch = Stretch {
+            kind: self.kind,
+            begin,
+            end: begin,
+            points: vec![point(sample, place)],
+            parts: Vec::new(),
+        };
+        (stretch, place)
+    }
+
+    fn end_all(&mut self, open: Vec<Open<'a>>, end: Bound) {
+        let ended = open
+            .into_iter()
+            .map(|(stretch, _)| Stretch { end, ..stretch });
+        self.ended.extend(ended);
+    }
+
+    /// Continues, begins and ends intervals by the groups of a piece.
+    fn across(&mut self, piece: &'a Piece, mut open: Vec<Open<'a>>) -> Vec<Open<'a>> {
+        let mut next = Vec::new();
+        for grouped in &piece.groups {
+            self.across_group(piece, grouped, &mut open, &mut next);
+        }
+        self.end_all(open, Bound::Unfollowed(piece.ends[0].speed_rad_per_s));
+        next
+    }
+
+    fn across_group(
+        &mut self,
+        piece: &'a Piece,
+        grouped: &'a Grouped,
+        open: &mut Vec<Open<'a>>,
+        next: &mut Vec<Open<'a>>,
+    ) {
+        let [from, to] = piece.ends.each_ref();
+        let [a, b] = [from, to].map(|end| end.speed_rad_per_s);
+        let at_end = |end: usize| {
+            let squares = &piece.ends[end].eigenvalues;
+            let size = |place: usize| self.kind.size(squares[place].0);
+            let mut places = grouped.places[end].clone();
+            places.retain(|&place| InstabilityKind::of_square(squares[place].0) == Some(self.kind));
+            places.sort_by(|&x, &y| size(y).total_cmp(&size(x)));
+            places.into_iter()
+        };
+        let (mut firsts, mut lasts) = (at_end(0), at_end(1));
+        for (rank, [first_share, last_share]) in grouped.group.stretches(self.kind) {
+            let speed = |share: f64| if share < 1.0 { a + share * (b - a) } else { b };
+            let (from_rad_per_s, to_rad_per_s) = (speed(first_share), speed(last_share));
+            let first = (first_share == 0.0).then(|| firsts.next()).flatten();
+            let mut stretch = match first {
+                Some(place) => taken(open, place)
+                    .unwrap_or_else(|| self.begun(Bound::Unfollowed(a), from, place).0),
+                None => Stretch {
+                    kind: self.kind,
+                    begin: coalescence(from_rad_per_s, a),
+                    end: coalescence(to_rad_per_s, b),
+                    points: Vec::new(),
+                    parts: Vec::new(),
+                },
+            };
+            stretch.parts.push(Part {
+                from_rad_per_s,
+                to_rad_per_s,
+                grouped,
+                rank,
+            });
+            let last = (last_share == 1.0).then(|| lasts.next()).flatten();
+            if let Some(place) = last {
+                stretch.points.push(point(to, place));
+                next.push((stretch, place));
+            } else {
+                stretch.end = coalescence(to_rad_per_s, b);
+                self.ended.push(stretch);
+            }
+        }
+        // Next to a coalescence the modes of a sample may be coalesced while those of the interpolated group are
+        // not, so that a stretch may end or begin at an end of the piece.
+        let end = coalescence(a, b);
+        let left = firsts.filter_map(|place| taken(open, place));
+        self.ended
+            .extend(left.map(|stretch| Stretch { end, ..stretch }));
+        next.extend(lasts.map(|place| self.begun(coalescence(b, a), to, place)));
+    }
+
+    /// Continues numbers by those at the other end of a piece, nearest pairs first; numbers without a partner end or begin at a critical
+    /// speed of the piece, or else in the middle.
+    fn across_unsettled(&mut self, piece: &'a Piece, open: Vec<Open<'a>>) -> Vec<Open<'a>> {
+        let [from, to] = piece.ends.each_ref();
+        let [a, b] = [from, to].map(|end| end.speed_rad_per_s);
+        let found: Vec<usize> = to.growing(self.kind).collect();
+        let passed = self.passed(piece);
+        if open.is_empty() && found.is_empty() {
+            // Without a real λ at either end, an odd number of negative eigenvalues of K(Ω) between two critical speeds implies one there.
+            let pairs = passed.chunks_exact(2).filter(|pair| differ(pair));
+            self.ended.extend(pairs.map(|pair| Stretch {
+                kind: self.kind,
+                begin: Bound::Unfollowed(pair[0]),
+                end: Bound::Unfollowed(pair[1]),
+                points: Vec::new(),
+                parts: Vec::new(),
+            }));
+        }
+        let bound = |outside: f64| match passed.first() {
+            Some(speed) => Bound::Critical(*speed),
+            None => coalescence(0.5 * (a + b), outside),
+        };
+        let partners = nearest_pairs([open.len(), found.len()], |i, k| {
+            let (last, next) = (from.eigenvalues[open[i].1].0, to.eigenvalues[found[k]].0);
+            Some((next - last).norm())
+        });
+        let mut next = Vec::new();
+        for ((mut stretch, _), partner) in open.into_iter().zip(&partners) {
+            if let Some(k) = partner {
+                let place = found[*k];
+                stretch.points.push(point(to, place));
+                next.push((stretch, place));
+            } else {
+                stretch.end = bound(b);
+                self.ended.push(stretch);
+            }
+        }
+        let is_new = |k: &usize| !partners.contains(&Some(*k));
+        let new = (0..found.len()).filter(is_new).map(|k| found[k]);
+        next.extend(new.map(|place| self.begun(bound(a), to, place)));
+        next
+    }
+
+    /// Critical speeds within a piece, at which a real λ may pass zero.
+    fn passed(&self, piece: &Piece) -> Vec<f64> {
+        if self.kind == InstabilityKind::Flutter {
+            return Vec::new();
+        }
+        let inside = self.critical.iter().copied();
+        inside.filter(|speed| piece.contains(*speed)).collect()
+    }
+}
+
+/// Relative distance of two critical speeds that are a double one, where both waves pass zero without divergence.
+const DOUBLE: f64 = 1e-12;
+
+/// Whether two critical speeds are not a double one.
+fn differ(pair: &[f64]) -> bool {
+    pair[1] - pair[0] >= DOUBLE * pair[0]
+}
+
+fn point(sample: &Sample, place: usize) -> CurvePoint {
+    CurvePoint::new(sample.speed_rad_per_s, sample.eigenvalues[place])
+}
+
+fn coalescence(expected_rad_per_s: f64, outside_rad_per_s: f64) -> Bound {
+    Bound::Coalescence {
+        expected_rad_per_s,
+        outside_rad_per_s,
+    }
+}
+
+/// Takes the open interval whose number has a given index in the last sample.
+fn taken<'a>(open: &mut Vec<Open<'a>>, place: usize) -> Option<Stretch<'a>> {
+    let known = open.iter().position(|(_, at)| *at == place)?;
+    Some(open.swap_remove(known).0)
+}
+
+#[cfg(test)]
+mod tests {
+    use std::sync::Arc;
+
+    use super::*;
+    use crate::stability::group::Sloped;
+    use crate::stability::pieces::Search;
+
+    /// Three quadruples at one end of a piece and two at the other: the first one ends, and does not take the place of another.
+    #[test]
+    fn a_quadruple_that_ends_in_an_unsettled_piece_leaves_the_others_their_places() {
+        let lambdas = [(0.01, 49.0), (3.25, 70.0), (37.0, 208.0)];
+        let sample = |speed: f64, lambdas: &[(f64, f64)]| {
+            let squares = lambdas.iter().flat_map(|(re, im)| {
+                let square = c64::new(*re, *im) * c64::new(*re, *im);
+                [square, square.conj()].map(|z| ((z, c64::ZERO), 0))
+            });
+            Arc::new(Sample::of_squares(speed, squares.collect()))
+        };
+        let piece = Piece {
+            ends: [sample(1.0, &lambdas), sample(1.1, &lambdas[1..])],
+            groups: Vec::new(),
+        };
+        let found = stretches(std::slice::from_ref(&piece), &[]);
+        assert_eq!(found.len(), 3);
+        for stretch in found {
+            let frequencies: Vec<f64> = stretch.points.iter().map(|p| p.number.sqrt().im).collect();
+            if let Bound::Coalescence { .. } = stretch.end {
+                assert!((frequencies[0] - 49.0).abs() < 1e-9 && frequencies.len() == 1);
+            } else {
+                assert_eq!(frequencies.len(), 2);
+                assert!((frequencies[0] - frequencies[1]).abs() < 1e-9);
+            }
+        }
+    }
+
+    /// The two numbers 1 ± √D of D and its slope.
+    fn around_one(square: [f64; 2]) -> [Sloped; 2] {
+        let [d, rise] = square.map(c64::from);
+        let root = d.sqrt();
+        [root, -root].map(|root| (1.0 + root, rise / (2.0 * root)))
+    }
+
+    type Stretched = (InstabilityKind, [f64; 2]);
+
+    /// Kind, begin and end of the intervals of two numbers in closed form over 0 to 10 rad/s. At the critical speeds one of them is zero.
+    fn read(numbers: &(dyn Fn(f64) -> [Sloped; 2] + Sync), critical: [f64; 2]) -> Vec<Stretched> {
+        const BESIDE: f64 = 1e-6;
+        let solve = |speed: f64| {
+            // A wave far above gives the search a gap to end in.
+            let above = (c64::from(-1e4), c64::ZERO);
+            let signed = numbers(speed).into_iter().chain([above]).map(|number| {
+                let is_wave = number.0.im == 0.0 && number.0.re < 0.0;
+                (number, i8::from(is_wave))
+            });
+            let is_clear = critical.iter().all(|c| (speed - c).abs() > 0.9 * BESIDE);
+            Ok(is_clear.then(|| Sample::of_squares(speed, signed.collect())))
+        };
+        let search = Search {
+            plane: Plane::Squares,
+            top_rad_per_s: 20.0,
+            tolerance: 1e-3,
+            growth_tolerance: 0.01,
+            noise_per_s: 1e-9,
+            solve: &solve,
+        };
+        let mut speeds: Vec<f64> = (0..9).map(|k| 1.25 * f64::from(k)).collect();
+        speeds.extend(critical.iter().flat_map(|c| [c - BESIDE, c + BESIDE]));
+        speeds.sort_by(f64::total_cmp);
+        let pieces = search.pieces(&speeds).unwrap();
+        let all = stretches(&pieces, &critical);
+        let ends = |stretch: &Stretch<'_>| [stretch.begin.speed(), stretch.end.speed()];
+        all.iter()
+            .map(|stretch| (stretch.kind, ends(stretch)))
+            .collect()
+    }
+
+    fn assert_read(found: &[Stretched], expected: &[Stretched]) {
+        assert_eq!(found.len(), expected.len(), "{found:?}");
+        for ((kind, ends), (expected_kind, expected_ends)) in found.iter().zip(expected) {
+            assert_eq!(kind, expected_kind);
+            for (end, expected) in ends.iter().zip(expected_ends) {
+                assert!((end - expected).abs() < 1e-4, "{found:?}");
+            }
+        }
+    }
+
+    /// D = (Ω − 3)(Ω − 7)/4. One λ² is above zero at both ends of the range; the other one, too, from D = 1 on; both coalesce at 3 and
+    /// split at 7. Divergence is one interval up to 3, whether one λ is real or two.
+    #[test]
+    fn divergence_ends_where_two_real_eigenvalues_continue_as_flutter() {
+        use InstabilityKind::{Divergence, Flutter};
+        let numbers =
+            |speed: f64| around_one([0.25 * (speed - 3.0) * (speed - 7.0), 0.5 * (speed - 5.0)]);
+        let critical = [-1.0, 1.0].map(|side: f64| 5.0 + side * 8.0_f64.sqrt());
+        let expected = [
+            (Flutter, [3.0, 7.0]),
+            (Divergence, [0.0, 3.0]),
+            (Divergence, [7.0, 10.0]),
+        ];
+        assert_read(&read(&numbers, critical), &expected);
+    }
+
+    /// D = ((Ω − 5)² − 10⁻⁶)/10: flutter interrupts divergence far within a step of the search.
+    #[test]
+    fn narrow_flutter_interrupts_divergence() {
+        use InstabilityKind::{Divergence, Flutter};
+        let numbers =
+            |speed: f64| around_one([0.1 * ((speed - 5.0).powi(2) - 1e-6), 0.2 * (speed - 5.0)]);
+        let critical = [-1.0, 1.0].map(|side: f64| 5.0 + side * (10.0_f64 + 1e-6).sqrt());
+        let expected = [
+            (Flutter, [4.999, 5.001]),
+            (Divergence, [0.0, 4.999]),
+            (Divergence, [5.001, 10.0]),
+        ];
+        assert_read(&read(&numbers, critical), &expected);
+    }
+
+    /// λ² = 16·10⁻¹⁴ − (Ω − 5)² is above zero from 5 − 4·10⁻⁷ to 5 + 4·10⁻⁷, which the search passes in one step.
+    #[test]
+    fn divergence_within_a_step_is_found_by_its_critical_speeds() {
+        let numbers = |speed: f64| {
+            let off = speed - 5.0;
+            let wave = (c64::from(-50.0), c64::ZERO);
+            [
+                (c64::from(1.6e-13 - off * off), c64::from(-2.0 * off)),
+                wave,
+            ]
+        };
+        let critical = [5.0 - 4e-7, 5.0 + 4e-7];
+        assert_eq!(
+            read(&numbers, critical),
+            [(InstabilityKind::Divergence, critical)]
+        );
+    }
+}
