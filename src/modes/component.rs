@@ -13,9 +13,8 @@ use super::error::SpectrumError;
 use super::free_wave;
 use super::half_order;
 use super::mode::{Mode, classify};
-use super::projection::Projection;
-use super::residual::{Lifted, MatrixNorms};
-use super::vectors::{Eigenpair, real_times};
+use super::residual::{Lifted, MatrixNorms, lifted};
+use super::vectors::{Eigenpair, halves};
 use super::waves::WaveModes;
 
 /// An independent component of the blade: one harmonic, or all of them coupled by guides.
@@ -34,9 +33,9 @@ pub struct Component {
 #[derive(Debug)]
 pub(super) enum Solution {
     /// All eigenpairs of the whole component.
-    Whole(OnceLock<Projection>),
+    Whole,
     /// Modes of one harmonic of an undamped free blade, a symmetric problem.
-    FreeWaves(Projection),
+    FreeWaves,
     /// Modes of a damped or guided blade by its waves.
     Waves(Box<WaveModes>),
 }
@@ -55,7 +54,7 @@ impl Component {
     fn new(full: GyroscopicSystem, first: usize) -> Self {
         Component {
             first,
-            solution: Solution::Whole(OnceLock::new()),
+            solution: Solution::Whole,
             norms: OnceLock::new(),
             full,
         }
@@ -71,12 +70,11 @@ impl Component {
         Col::from_fn(self.full.order(), |i| shape[self.first + i])
     }
 
-    /// The projection by which modes are lifted.
-    pub(super) fn projection(&self) -> &Projection {
+    /// The matrices in the coordinates of modes.
+    pub(super) fn system(&self) -> &GyroscopicSystem {
         match &self.solution {
-            Solution::Whole(whole) => whole.get_or_init(|| Projection::whole(&self.full)),
-            Solution::FreeWaves(whole) => whole,
-            Solution::Waves(modes) => &modes.projection,
+            Solution::Whole | Solution::FreeWaves => &self.full,
+            Solution::Waves(modes) => &modes.coordinates.system,
         }
     }
 
@@ -89,49 +87,51 @@ impl Component {
         speed: f64,
         highest: f64,
     ) -> Result<Vec<Mode>, SpectrumError> {
-        let system = &self.projection().reduced;
         let mut pairs = match &self.solution {
             Solution::Waves(modes) => return modes.at(speed, highest, index),
-            Solution::FreeWaves(_) => free_wave::eigenpairs(plate, index, system, speed)?,
-            Solution::Whole(_) => half_order::eigenpairs(system, speed)?,
+            Solution::FreeWaves => free_wave::eigenpairs(plate, index, &self.full, speed)?,
+            Solution::Whole => half_order::eigenpairs(&self.full, speed)?,
         };
         pairs.retain(|(lambda, _)| lambda.im <= highest);
-        Ok(classify(system, speed, index, pairs))
-    }
-
-    /// Coordinates in the projection of a mode of this component.
-    fn projected(&self, speed_rad_per_s: f64, lambda: c64, coordinates: &Col<c64>) -> Col<c64> {
-        match &self.solution {
-            Solution::Waves(modes) => modes.whole_vector(speed_rad_per_s, lambda, coordinates),
-            Solution::Whole(_) | Solution::FreeWaves(_) => coordinates.clone(),
-        }
+        Ok(classify(&self.full, speed, index, pairs))
     }
 
     /// Modes in the unknowns of this component, with their residuals.
     pub(super) fn lifted_modes(&self, speed_rad_per_s: f64, modes: &[Mode]) -> Vec<Lifted> {
-        let projected: Vec<Eigenpair> = modes
-            .iter()
-            .map(|m| {
-                (
-                    m.lambda,
-                    self.projected(speed_rad_per_s, m.lambda, &m.coordinates),
-                )
-            })
-            .collect();
-        self.projection().lifted(speed_rad_per_s, &projected)
+        if let Solution::Waves(waves) = &self.solution {
+            let whole = modes.iter().map(|mode| {
+                let all = waves.whole_vector(speed_rad_per_s, mode.lambda, &mode.coordinates);
+                (mode.lambda, all)
+            });
+            let pairs: Vec<Eigenpair> = whole.collect();
+            return waves.coordinates.lifted(speed_rad_per_s, &pairs);
+        }
+        let shapes = halves(
+            self.full.order(),
+            modes.iter().map(|mode| &mode.coordinates),
+        );
+        let force = self.full.stiffness_at(speed_rad_per_s) * &shapes;
+        let momentum = self.full.velocity_at(speed_rad_per_s) * &shapes;
+        let lambdas = modes.iter().map(|mode| mode.lambda);
+        lifted(lambdas, [&shapes, &momentum, &force])
     }
 
     /// A mode in the unknowns of this component, from its λ and coordinates.
     pub fn lifted(&self, speed_rad_per_s: f64, lambda: c64, coordinates: &Col<c64>) -> Col<c64> {
-        let projected = self.projected(speed_rad_per_s, lambda, coordinates);
-        real_times(&self.projection().basis, &projected)
+        match &self.solution {
+            Solution::Whole | Solution::FreeWaves => coordinates.clone(),
+            Solution::Waves(waves) => {
+                let whole = waves.whole_vector(speed_rad_per_s, lambda, coordinates);
+                waves.coordinates.shape(&whole)
+            }
+        }
     }
 
     /// The waves that name modes in the unknowns of this component: all but those far from them in frequency.
     pub(super) fn naming_waves(&self, modes: &[&Mode]) -> Vec<Col<c64>> {
         match &self.solution {
             Solution::Waves(waves) => waves.near_vectors(modes),
-            Solution::Whole(_) | Solution::FreeWaves(_) => {
+            Solution::Whole | Solution::FreeWaves => {
                 modes.iter().map(|mode| mode.coordinates.clone()).collect()
             }
         }
@@ -141,7 +141,7 @@ impl Component {
     pub(super) fn next_to(&self, speed_rad_per_s: f64, expected: c64) -> Option<(c64, c64)> {
         match &self.solution {
             Solution::Waves(modes) => modes.next_to(speed_rad_per_s, expected),
-            _ => derivative::next_to(&self.projection().reduced, speed_rad_per_s, expected),
+            _ => derivative::next_to(&self.full, speed_rad_per_s, expected),
         }
     }
 
@@ -153,7 +153,7 @@ impl Component {
     ) -> Option<DoubleEigenvalue> {
         match &self.solution {
             Solution::Waves(modes) => modes.double_eigenvalue(speed_rad_per_s, expected),
-            _ => DoubleEigenvalue::next_to(&self.projection().reduced, speed_rad_per_s, expected),
+            _ => DoubleEigenvalue::next_to(&self.full, speed_rad_per_s, expected),
         }
     }
 }

@@ -2,15 +2,31 @@
 
 use faer::{Col, Mat, c64};
 
+use super::vectors::joined;
 use crate::model::system::GyroscopicSystem;
 
-/// A mode of a projection in the unknowns of its component.
+/// A mode in the unknowns of its component.
 #[derive(Debug)]
 pub struct Lifted {
-    /// Deflection Vq.
+    /// Deflection q.
     pub shape: Col<c64>,
-    /// Residual L(λ)Vq.
+    /// Residual L(λ)q.
     pub residual: Col<c64>,
+}
+
+/// Modes with their residuals λ(λq + Dq) + Kq from the [`halves`](super::vectors::halves) of q, Dq and Kq.
+pub fn lifted(
+    lambdas: impl Iterator<Item = c64>,
+    [shapes, momentum, force]: [&Mat<f64>; 3],
+) -> Vec<Lifted> {
+    let of = |(k, lambda): (usize, c64)| {
+        let [shape, momentum, force] = [shapes, momentum, force].map(|all| joined(all, k));
+        let residual = Col::from_fn(shape.nrows(), |i| {
+            lambda * (lambda * shape[i] + momentum[i]) + force[i]
+        });
+        Lifted { shape, residual }
+    };
+    lambdas.enumerate().map(of).collect()
 }
 
 /// ‖D‖ and ‖K‖ at any speed, from the products of their terms, for residuals.

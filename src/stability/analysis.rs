@@ -181,7 +181,7 @@ impl Analysis {
             range_rad_per_s: range,
             estimated_relative_error,
             estimated_resting_error,
-            larger,
+            basis_error,
             complete_to_rad_per_s,
         } = chosen;
         options.report(&critical, range, None);
@@ -199,7 +199,8 @@ impl Analysis {
         if let Some(listed) = &mut listed {
             listed.refine_peaks(&model, &mut chart.instabilities)?;
         }
-        let estimates = Estimates::new(&model, range, &chart, larger, estimated_resting_error)?;
+        let estimates =
+            Estimates::new(&model, range, &chart, basis_error, estimated_resting_error)?;
         let threshold = scene.flutter_threshold_per_s();
         let [flutter_speed, first_merge] = flutter_onsets(&chart.instabilities, threshold);
         let drawn_onset = flutter_speed

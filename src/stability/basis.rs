@@ -12,7 +12,7 @@ use super::reach::{PAST_THE_RANGE, Reach, speeds};
 use crate::model::plate::{Plate, Resolution};
 use crate::model::scene::{Scene, SpeedRange};
 use crate::model::tuning::Tuned;
-use crate::modes::{Assembled, Cancellation, LargerBasis, NamedCriticalSpeed, RestingMode, Work};
+use crate::modes::{Assembled, BasisError, Cancellation, NamedCriticalSpeed, RestingMode, Work};
 
 /// Factor for the estimated errors, because the larger basis has an error too. On 120 random saws, 60 of
 /// which were not used to choose the factor, the true error was up to 1.9 times the estimate without it for
@@ -39,8 +39,8 @@ pub struct ChosenBasis {
     pub estimated_relative_error: f64,
     /// Estimated relative error of the lowest frequencies at rest.
     pub estimated_resting_error: f64,
-    /// Functions of a larger basis, for the estimated errors of other results.
-    pub larger: LargerBasis,
+    /// Errors of the basis, for those of other results.
+    pub basis_error: BasisError,
     /// Speed up to which no wave with more nodal diameters than the basis can stand still: at least the end of the
     /// range and the first critical speed.
     pub complete_to_rad_per_s: f64,
@@ -84,14 +84,14 @@ impl ChosenBasis {
                 diameters = known.diameters;
                 continue;
             }
-            let ((critical, resting), larger) = rayon::join(
+            let ((critical, resting), basis_error) = rayon::join(
                 || {
                     rayon::join(
                         || saw.critical_speeds(Some(&|found| PAST_THE_RANGE * reach.last(found))),
                         || saw.modes_at_rest(MODES_AT_REST),
                     )
                 },
-                || LargerBasis::new(&saw.plate, &Plate::new(scene, ahead(size))),
+                || BasisError::new(&saw.plate, &Plate::new(scene, ahead(size))),
             );
             let critical = critical?;
             let known = reach.of_saw(&saw, &critical, known)?;
@@ -99,15 +99,15 @@ impl ChosenBasis {
                 diameters = known.diameters;
                 continue;
             }
-            let (larger, resting) = (larger?, resting?);
+            let (basis_error, resting) = (basis_error?, resting?);
             let range_rad_per_s = reach.range(&speeds(&critical));
             let seen = reach.of_window(&saw.plate, range_rad_per_s, &resting)?;
             if seen > size.max_diameters && reach.fits(&saw, sized(rung, seen)) {
                 diameters = seen;
                 continue;
             }
-            let resting = resting_error(&resting, &larger);
-            let error = critical_error(&saw, &larger, &critical, range_rad_per_s.to_rad_per_s);
+            let resting = resting_error(&resting, &basis_error);
+            let error = critical_error(&saw, &basis_error, &critical, range_rad_per_s.to_rad_per_s);
             let excess = resting.max(error) / tolerance;
             let next = next(rung, excess, |rung| {
                 reach.fits(&saw, sized(rung, diameters))
@@ -119,7 +119,7 @@ impl ChosenBasis {
                     range_rad_per_s,
                     estimated_relative_error: error,
                     estimated_resting_error: resting,
-                    larger,
+                    basis_error,
                     complete_to_rad_per_s: known.to_rad_per_s,
                 });
             };
@@ -190,15 +190,15 @@ pub(crate) fn end_of_sweep(scene: &Scene) -> Result<f64, AnalysisError> {
 }
 
 /// Largest estimated relative error of the lowest frequencies at rest.
-fn resting_error(modes: &[RestingMode], larger: &LargerBasis) -> f64 {
-    let errors = modes.iter().map(|mode| larger.resting_error(mode));
+fn resting_error(modes: &[RestingMode], basis_error: &BasisError) -> f64 {
+    let errors = modes.iter().map(|mode| basis_error.resting_error(mode));
     REMAINDER.get() * errors.fold(0.0, f64::max)
 }
 
 /// Largest estimated relative error of the critical speeds up to a speed, and of the first.
 fn critical_error(
     saw: &Assembled,
-    larger: &LargerBasis,
+    basis_error: &BasisError,
     critical: &[NamedCriticalSpeed],
     to_rad_per_s: f64,
 ) -> f64 {
@@ -206,7 +206,7 @@ fn critical_error(
     let errors = critical
         .iter()
         .take(within.max(1))
-        .map(|c| larger.critical_error(&saw.components, c));
+        .map(|c| basis_error.critical_error(&saw.components, c));
     (REMAINDER.get() * errors.fold(0.0, f64::max)).max(ROUNDING)
 }
 

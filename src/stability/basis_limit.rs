@@ -9,7 +9,7 @@ use super::estimate::Estimates;
 use super::ladder::{DENSE_LADDER, LADDER, ahead, diameters_beyond, resolution, rung_of, sized};
 use crate::model::plate::{Contact, ContactTerms, Plate, Resolution};
 use crate::model::scene::{Guide, Scene};
-use crate::modes::{Assembled, LargerBasis};
+use crate::modes::{Assembled, BasisError};
 
 /// Reason why an analysis misses the tolerance of its scene.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -70,7 +70,7 @@ struct Smaller {
     plate: Plate,
     /// The saw on the basis that measures the error.
     finer: Plate,
-    larger: LargerBasis,
+    basis_error: BasisError,
     /// Largest error of a critical speed within the range, or of a frequency at rest.
     error: f64,
     /// Component of the wave with this error.
@@ -83,17 +83,17 @@ impl Smaller {
     fn new(scene: &Scene, size: Resolution, to_rad_per_s: f64) -> Result<Self, AnalysisError> {
         let saw = Assembled::from(Plate::new(scene, size));
         let finer = Plate::new(scene, ahead(size));
-        let larger = LargerBasis::new(&saw.plate, &finer)?;
+        let basis_error = BasisError::new(&saw.plate, &finer)?;
         let critical = saw.critical_speeds(Some(&|_| to_rad_per_s))?;
         let within = critical
             .into_iter()
             .filter(|c| c.speed_rad_per_s <= to_rad_per_s)
             .map(|c| {
-                let error = larger.critical_error(&saw.components, &c);
+                let error = basis_error.critical_error(&saw.components, &c);
                 (error, c.component, c.shape)
             });
         let resting = saw.modes_at_rest(MODES_AT_REST)?.into_iter().map(|mode| {
-            let error = larger.resting_error(&mode);
+            let error = basis_error.resting_error(&mode);
             (error, mode.component, mode.shape)
         });
         let all = within.chain(resting);
@@ -103,7 +103,7 @@ impl Smaller {
         Ok(Smaller {
             plate: saw.plate,
             finer,
-            larger,
+            basis_error,
             error: REMAINDER.get() * error,
             component,
             shape,
@@ -117,7 +117,8 @@ impl Smaller {
             let mut terms = ContactTerms::default();
             guide.typed.add_to(&self.finer, &mut terms);
             let stiffness = terms.stiffness()?;
-            self.larger.softening_by(self.component, stiffness, &shape)
+            self.basis_error
+                .softening_by(self.component, stiffness, &shape)
         };
         let shares = guides
             .iter()

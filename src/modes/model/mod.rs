@@ -243,10 +243,10 @@ impl SpectralModel {
     /// relative error; then rounding only changes each entry of the matrix by ε times its size.
     pub(crate) fn relative_rounding(&self, mode: &Mode) -> f64 {
         let component = &self.components[mode.component];
-        let stiffness = &component.projection().reduced.stiffness;
+        let stiffness = &component.system().stiffness;
         let square = mode.frequency_rad_per_s().powi(2);
         let size = match component.solution {
-            Solution::FreeWaves(_) => {
+            Solution::FreeWaves => {
                 let q = &mode.coordinates;
                 let sizes = Col::from_fn(q.nrows(), |i| q[i].norm());
                 let entries = stiffness.nrows();
@@ -268,7 +268,7 @@ impl SpectralModel {
         let component = &self.components[index];
         let solves = match component.solution {
             Solution::Waves(_) => &self.counters.local_solves,
-            Solution::Whole(_) | Solution::FreeWaves(_) => &self.counters.reduced_solves,
+            Solution::Whole | Solution::FreeWaves => &self.counters.reduced_solves,
         };
         solves.fetch_add(1, Ordering::Relaxed);
         let speed = speed_rad_per_s.max(SPLITTING * frequency_scale(&self.plate));

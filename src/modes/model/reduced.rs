@@ -10,7 +10,6 @@ use crate::modes::critical_speed::searched_range;
 use crate::modes::error::SpectrumError;
 use crate::modes::full_model::FullModel;
 use crate::modes::heights::{Guided, Heights};
-use crate::modes::projection::Projection;
 use crate::modes::scale::frequency_scale;
 use crate::modes::structured_stiffness::LARGE;
 use crate::modes::waves::{self, WaveModel};
@@ -27,7 +26,7 @@ impl SpectralModel {
     /// Selects the symmetric eigenproblem in the body frame for every component.
     pub(super) fn use_free_waves(&mut self) {
         for component in &mut self.components {
-            component.solution = Solution::FreeWaves(Projection::whole(&component.full));
+            component.solution = Solution::FreeWaves;
         }
     }
 
@@ -93,7 +92,7 @@ impl SpectralModel {
             .iter()
             .filter_map(|component| match &component.solution {
                 Solution::Waves(modes) => Some(modes.models()),
-                Solution::Whole(_) | Solution::FreeWaves(_) => None,
+                Solution::Whole | Solution::FreeWaves => None,
             });
         by_waves.flatten().collect()
     }

@@ -14,6 +14,7 @@ use crate::model::scene::SpeedRange;
 use faer::Mat;
 
 mod blade;
+mod coordinates;
 mod elimination;
 mod far_velocity;
 mod modes;
@@ -26,6 +27,7 @@ mod speed_series;
 mod tests;
 
 use blade::Saw;
+use coordinates::Coordinates;
 use elimination::Elimination;
 pub use modes::WaveModes;
 use near_block::Near;
@@ -33,7 +35,6 @@ pub use speed_series::WaveModel;
 use speed_series::at_nodes;
 
 use super::error::SpectrumError;
-use super::projection::Projection;
 use crate::model::plate::Plate;
 use crate::model::system::GyroscopicSystem;
 
@@ -86,13 +87,13 @@ pub fn modes(
     let (terms, far): (Vec<_>, Vec<_>) = nodes.into_iter().unzip();
     let far: Vec<Mat<f64>> = far.into_iter().flatten().collect();
     let span = if undamped.is_some() { WHOLE } else { SPAN };
-    let projection = Projection::new(full, elimination.basis(&far, span));
+    let coordinates = Coordinates::new(full, elimination.basis(&far, span));
     if undamped.is_some() {
-        return WaveModes::whole(projection, range, window);
+        return WaveModes::whole(coordinates, range, window);
     }
     let near = elimination.near();
     let model = WaveModel::of(&terms, range, elimination.diameters, window, full);
-    Ok(WaveModes::new(&model, projection, near))
+    Ok(WaveModes::new(&model, coordinates, near))
 }
 
 /// Distance ω − nΩ up to which waves are kept, in 1/s. In air with the damping c per mass a far wave decays as slowly as

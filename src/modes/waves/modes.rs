@@ -7,6 +7,7 @@
 use faer::linalg::solvers::Solve;
 use faer::{Col, Mat, Scale, c64};
 
+use super::coordinates::Coordinates;
 use super::elimination::side_by_side;
 use super::roots::Root;
 use super::speed_series::{WaveModel, at_nodes};
@@ -15,7 +16,6 @@ use crate::model::system::dynamic_stiffness;
 use crate::modes::double_eigenvalue::DoubleEigenvalue;
 use crate::modes::error::SpectrumError;
 use crate::modes::mode::Mode;
-use crate::modes::projection::Projection;
 use crate::modes::vectors::{halves, joined, smallest, unit};
 
 /// Unknowns that no others act on.
@@ -33,39 +33,39 @@ pub struct WaveModes {
     parts: Vec<Part>,
     /// Largest error of the series in the speed, in units of the window.
     pub tail: f64,
-    /// Projection on the near waves, and on vectors of far ones.
-    pub projection: Projection,
+    /// Near waves, then vectors of far ones.
+    pub coordinates: Coordinates,
     /// Number of strong dampers, whose displacements are the first unknowns of the reduced model.
     strong: usize,
-    /// Number of near waves, the other unknowns of the model and the first coordinates of the projection.
+    /// Number of near waves, the other unknowns of the model and the first coordinates.
     near: usize,
 }
 
 impl WaveModes {
-    /// The modes by a reduced model, with a projection on its near waves and on vectors of far ones.
-    pub(super) fn new(model: &WaveModel, projection: Projection, near: usize) -> Self {
+    /// The modes by a reduced model, with coordinates of its near waves and of vectors of far ones.
+    pub(super) fn new(model: &WaveModel, coordinates: Coordinates, near: usize) -> Self {
         let parts = model.parts().into_iter();
         WaveModes {
             parts: parts
                 .map(|(places, model)| Part { places, model })
                 .collect(),
             tail: model.tail(),
-            projection,
+            coordinates,
             strong: model.size() - near,
             near,
         }
     }
 
-    /// The projection as it is, with nothing eliminated, for a window in 1/s.
+    /// All coordinates kept, with nothing eliminated, for a window in 1/s.
     ///
     /// # Errors
     /// [`SpectrumError::Cancelled`].
     pub(super) fn whole(
-        projection: Projection,
+        coordinates: Coordinates,
         range: SpeedRange,
         window: f64,
     ) -> Result<Self, SpectrumError> {
-        let system = &projection.reduced;
+        let system = &coordinates.system;
         let near = system.order();
         let quadratic = |_, speed| {
             Ok(side_by_side(&[
@@ -76,7 +76,7 @@ impl WaveModes {
         };
         let terms = at_nodes(range, quadratic)?;
         let model = WaveModel::of(&terms, range, vec![None; near], window, system);
-        Ok(WaveModes::new(&model, projection, near))
+        Ok(WaveModes::new(&model, coordinates, near))
     }
 
     /// Reduced models of the parts that do not act on one another.
@@ -115,10 +115,10 @@ impl WaveModes {
         Ok(modes)
     }
 
-    /// Coordinates in the projection of a mode from its λ and its near waves.
+    /// All coordinates of a mode from its λ and its near waves.
     pub fn whole_vector(&self, speed_rad_per_s: f64, lambda: c64, near: &Col<c64>) -> Col<c64> {
-        let stiffness = self.projection.reduced.stiffness_at(speed_rad_per_s);
-        let velocity = self.projection.reduced.velocity_at(speed_rad_per_s);
+        let stiffness = self.coordinates.system.stiffness_at(speed_rad_per_s);
+        let velocity = self.coordinates.system.velocity_at(speed_rad_per_s);
         let dynamic = dynamic_stiffness(&stiffness, &velocity, lambda);
         let kept = self.near;
         let (coupling, far) = (dynamic.get(kept.., ..kept), dynamic.get(kept.., kept..));
@@ -134,7 +134,7 @@ impl WaveModes {
     /// The near waves of modes as vectors of the component.
     pub fn near_vectors(&self, modes: &[&Mode]) -> Vec<Col<c64>> {
         let near = halves(self.near, modes.iter().map(|mode| &mode.coordinates));
-        let vectors = self.projection.basis.subcols(0, self.near) * near;
+        let vectors = self.coordinates.vectors.subcols(0, self.near) * near;
         (0..modes.len()).map(|k| joined(&vectors, k)).collect()
     }
 

@@ -7,7 +7,6 @@ use crate::model::plate::Resolution;
 use crate::model::scene::{DampingFile, Scene, SceneFile, SpeedRange, WoodFile, rad_per_s};
 use crate::modes::component::Component;
 use crate::modes::mode::Mode;
-use crate::modes::vectors::real_times;
 use crate::modes::{companion_eigenpairs, derivative, eigenvalues};
 
 const TO_RPM: f64 = 3000.0;
@@ -201,7 +200,7 @@ fn vectors_of_all_waves_are_those_of_the_full_matrices() {
             let off = |pair: &(c64, Col<c64>)| (pair.0 - lambda).norm();
             let exact = exact.iter().min_by(|x, y| off(x).total_cmp(&off(y)));
             let whole = modes.whole_vector(speed, lambda, &coordinates);
-            let shape = real_times(&modes.projection.basis, &whole);
+            let shape = modes.coordinates.shape(&whole);
             let along: c64 = exact.unwrap().1.adjoint() * &shape;
             let angle = (1.0 - along.norm_sqr()).abs().sqrt();
             assert!(angle < 2e-6, "{lambda}: {angle:e}");

@@ -18,14 +18,14 @@ use crate::model::scene::SpeedRange;
 use crate::model::system::GyroscopicSystem;
 use crate::modes::branches::SpeedSample;
 use crate::modes::{
-    Cancellation, DescribedMode, DoubleEigenvalue, LargerBasis, ModeKind, NamedMode, SpectralModel,
+    BasisError, Cancellation, DescribedMode, DoubleEigenvalue, ModeKind, NamedMode, SpectralModel,
     SpectrumError, Work, companion_eigenpairs, critical_speeds, orthonormal, smallest, split,
 };
 
 /// Estimated errors, from the changes that a larger basis would make.
 #[derive(Debug)]
 pub struct Estimates {
-    larger: LargerBasis,
+    basis_error: BasisError,
     /// Relative error of each critical speed within the range.
     pub critical: Vec<f64>,
     /// Largest relative error of the lowest frequencies at rest.
@@ -50,7 +50,7 @@ impl Estimates {
         model: &SpectralModel,
         range: SpeedRange,
         chart: &StabilityChart,
-        larger: LargerBasis,
+        basis_error: BasisError,
         at_rest: f64,
     ) -> Result<Self, SpectrumError> {
         let within = model
@@ -58,7 +58,9 @@ impl Estimates {
             .iter()
             .filter(|c| c.speed_rad_per_s <= range.to_rad_per_s);
         let critical: Vec<f64> = within
-            .map(|critical| REMAINDER.get() * larger.critical_error(&model.components, critical))
+            .map(|critical| {
+                REMAINDER.get() * basis_error.critical_error(&model.components, critical)
+            })
             .collect();
         let samples = &chart.campbell.samples;
         let looks = LOOKS
@@ -70,7 +72,7 @@ impl Estimates {
             let speed = sample.speed_rad_per_s;
             let modes = described(model, speed, sample.modes.iter());
             backward_error = largest_backward_error(&modes).max(backward_error);
-            let errors = larger.frequency_errors(&model.components, speed, &modes);
+            let errors = basis_error.frequency_errors(&model.components, speed, &modes);
             drawn = errors
                 .into_iter()
                 .flatten()
@@ -79,7 +81,7 @@ impl Estimates {
         }
         let least = critical.iter().copied().fold(0.0, f64::max);
         let mut estimates = Estimates {
-            larger,
+            basis_error,
             critical,
             at_rest,
             drawn,
@@ -116,7 +118,7 @@ impl Estimates {
         modes: &[DescribedMode],
     ) -> Vec<Option<f64>> {
         let errors = self
-            .larger
+            .basis_error
             .frequency_errors(&model.components, speed_rad_per_s, modes);
         let with_remainder = |error: Option<f64>| error.map(|error| REMAINDER.get() * error);
         errors.into_iter().map(with_remainder).collect()
@@ -153,7 +155,7 @@ impl Estimates {
         let found = full.project(basis.as_ref());
         let mut larger = found.clone();
         larger.stiffness -= self
-            .larger
+            .basis_error
             .softening(component, band.peak_rad_per_s, &basis);
         [found, larger]
     }

@@ -21,9 +21,9 @@ mod added_functions;
 
 use self::added_functions::AddedFunctions;
 
-/// A larger basis that contains the one of a plate.
+/// Errors of the basis of a plate, from the functions that a larger one adds.
 #[derive(Debug)]
-pub struct LargerBasis {
+pub struct BasisError {
     /// Added functions of each component of the plate.
     added: Vec<AddedFunctions>,
 }
@@ -31,7 +31,7 @@ pub struct LargerBasis {
 /// Smallest slope, relative to the frequency in the body frame, of a mode whose frequency is smooth.
 const LEAST_SLOPE: f64 = 0.3;
 
-impl LargerBasis {
+impl BasisError {
     /// The functions of `larger` that are absent from `plate`, which is the same saw in a smaller basis.
     ///
     /// # Errors
@@ -44,7 +44,7 @@ impl LargerBasis {
         } else {
             vec![AddedFunctions::of_coupled(plate, larger)?]
         };
-        Ok(LargerBasis { added })
+        Ok(BasisError { added })
     }
 
     /// Relative error of a frequency at rest.
@@ -145,7 +145,7 @@ mod tests {
 
     /// Reference: the differences between the results of both bases.
     #[test]
-    fn estimated_errors_are_the_changes_on_the_larger_basis() {
+    fn estimated_errors_are_the_changes_on_the_basis_error() {
         let free = Scene::paper().edited(|saw| saw.guides.clear()).unwrap();
         for scene in [Scene::paper(), free] {
             let [plate, larger] = [(10, 6), (18, 10)].map(|(max_diameters, radial_functions)| {
@@ -155,7 +155,7 @@ mod tests {
                 };
                 Plate::new(&scene, resolution)
             });
-            let basis = LargerBasis::new(&plate, &larger).unwrap();
+            let basis = BasisError::new(&plate, &larger).unwrap();
             let [components, finer] = [&plate, &larger].map(Component::of);
             let [coarse, fine] =
                 [&components, &finer].map(|components| modes_at_rest(components, 10).unwrap());
