@@ -14,8 +14,8 @@ use crate::stability::instability_kind::InstabilityKind;
 use crate::stability::pieces::Piece;
 use crate::stability::sample::{Plane, squared};
 
-/// Intervals of growth in the pieces of a search, confirmed by eigenproblems, with their ends by Newton's method. `critical` are the
-/// critical speeds, ascending.
+/// Intervals of growth in the pieces of a search, confirmed by eigenproblems, with their ends by Newton's method: of flutter for each
+/// quadruple, of divergence for all real λ > 0 together. `critical` are the critical speeds, ascending.
 ///
 /// # Errors
 /// [`SpectrumError`] when an eigenproblem fails.
@@ -28,7 +28,35 @@ pub fn growing(
         .par_iter()
         .map(|stretch| confirmed(checked, stretch))
         .collect::<Result<_, _>>()?;
-    Ok(confirmed.into_iter().flatten().collect())
+    let all = confirmed.into_iter().flatten();
+    let (flutter, divergence) = all.partition(|stretch| stretch.kind == InstabilityKind::Flutter);
+    Ok([flutter, united(divergence)].concat())
+}
+
+/// Intervals that do not overlap, each with the largest of the numbers at every speed.
+fn united(mut stretches: Vec<GrowingStretch>) -> Vec<GrowingStretch> {
+    stretches.sort_by(|x, y| x.ends[0].speed().total_cmp(&y.ends[0].speed()));
+    let mut united: Vec<GrowingStretch> = Vec::new();
+    for stretch in stretches {
+        let [begin, end] = stretch.ends;
+        match united.last_mut() {
+            Some(last) if begin.speed() < last.ends[1].speed() => {
+                if end.speed() > last.ends[1].speed() {
+                    last.ends[1] = end;
+                }
+                last.points.extend(stretch.points);
+            }
+            _ => united.push(stretch),
+        }
+    }
+    for stretch in &mut united {
+        stretch.points.sort_by(|x, y| {
+            let by_speed = x.speed_rad_per_s.total_cmp(&y.speed_rad_per_s);
+            by_speed.then(y.number.re.total_cmp(&x.number.re))
+        });
+        stretch.points.dedup_by_key(|point| point.speed_rad_per_s);
+    }
+    united
 }
 
 /// An interval with both ends; `None` if no eigenproblem confirms it.

@@ -67,18 +67,16 @@ struct Part<'a> {
 const STEPS: usize = 16;
 
 impl Stretch<'_> {
-    /// Interpolated number at a speed, in 1/s², of several the largest; `None` outside the interval.
+    /// Interpolated number at a speed, in 1/s²; `None` outside the interval.
     pub fn square(&self, speed_rad_per_s: f64) -> Option<c64> {
         let covers =
             |part: &&Part<'_>| (part.from_rad_per_s..=part.to_rad_per_s).contains(&speed_rad_per_s);
+        let part = self.parts.iter().find(covers)?;
         let size = |square: &c64| self.kind.size(*square);
-        let squares = self.parts.iter().filter(covers).filter_map(|part| {
-            let mut values = part.grouped.group.at(speed_rad_per_s);
-            values.sort_by(|x, y| size(y).total_cmp(&size(x)));
-            values.get(part.rank).copied()
-        });
-        let largest = squares.max_by(|x, y| size(x).total_cmp(&size(y)))?;
-        Some(c64::new(largest.re, largest.im.max(0.0)))
+        let mut values = part.grouped.group.at(speed_rad_per_s);
+        values.sort_by(|x, y| size(y).total_cmp(&size(x)));
+        let square = values.get(part.rank)?;
+        Some(c64::new(square.re, square.im.max(0.0)))
     }
 
     /// Speed of the largest interpolated growth; `None` if the interval is not interpolated.
@@ -101,42 +99,12 @@ impl Stretch<'_> {
     }
 }
 
-/// Intervals of flutter, of one quadruple each, and intervals of divergence, in which at least one λ > 0 is real. `critical` are the
-/// critical speeds, ascending.
+/// Intervals of flutter and of divergence, of one number each. `critical` are the critical speeds, ascending.
 pub fn stretches<'a>(pieces: &'a [Piece], critical: &[f64]) -> Vec<Stretch<'a>> {
     let of = |kind| Reader::new(kind, pieces, critical).read();
     let mut all = of(InstabilityKind::Flutter);
-    all.extend(united(of(InstabilityKind::Divergence)));
+    all.extend(of(InstabilityKind::Divergence));
     all
-}
-
-/// Intervals that do not overlap, each with the largest of the numbers at every speed.
-fn united(mut stretches: Vec<Stretch<'_>>) -> Vec<Stretch<'_>> {
-    stretches.sort_by(|x, y| x.begin.speed().total_cmp(&y.begin.speed()));
-    let mut united: Vec<Stretch<'_>> = Vec::new();
-    for stretch in stretches {
-        match united.last_mut() {
-            Some(last) if stretch.begin.speed() < last.end.speed() => {
-                if stretch.end.speed() > last.end.speed() {
-                    last.end = stretch.end;
-                }
-                last.points.extend(stretch.points);
-                last.parts.extend(stretch.parts);
-            }
-            _ => united.push(stretch),
-        }
-    }
-    for stretch in &mut united {
-        let order = |x: &CurvePoint, y: &CurvePoint| {
-            let by_speed = x.speed_rad_per_s.total_cmp(&y.speed_rad_per_s);
-            by_speed.then(y.number.re.total_cmp(&x.number.re))
-        };
-        if stretch.kind == InstabilityKind::Divergence {
-            stretch.points.sort_by(order);
-            stretch.points.dedup_by_key(|point| point.speed_rad_per_s);
-        }
-    }
-    united
 }
 
 /// An unfinished interval and the index of its number in the last sample.
@@ -293,9 +261,11 @@ impl<'a, 'c> Reader<'a, 'c> {
                 parts: Vec::new(),
             }));
         }
-        let bound = |outside: f64| match passed.first() {
-            Some(speed) => Bound::Critical(*speed),
-            None => coalescence(0.5 * (a + b), outside),
+        let flutter = [from, to].map(|end| end.growing(InstabilityKind::Flutter).count());
+        // Where a quadruple takes the place of a real λ, the other of both has passed zero before.
+        let bound = |outside: f64, [inner, outer]: [usize; 2]| match passed.first() {
+            Some(speed) if outer <= inner => Bound::Critical(*speed),
+            _ => coalescence(0.5 * (a + b), outside),
         };
         let partners = nearest_pairs([open.len(), found.len()], |i, k| {
             let (last, next) = (from.eigenvalues[open[i].1].0, to.eigenvalues[found[k]].0);
@@ -308,13 +278,13 @@ impl<'a, 'c> Reader<'a, 'c> {
                 stretch.points.push(point(to, place));
                 next.push((stretch, place));
             } else {
-                stretch.end = bound(b);
+                stretch.end = bound(b, flutter);
                 self.ended.push(stretch);
             }
         }
         let is_new = |k: &usize| !partners.contains(&Some(*k));
         let new = (0..found.len()).filter(is_new).map(|k| found[k]);
-        next.extend(new.map(|place| self.begun(bound(a), to, place)));
+        next.extend(new.map(|place| self.begun(bound(a, [flutter[1], flutter[0]]), to, place)));
         next
     }
 
@@ -398,8 +368,8 @@ mod tests {
 
     type Stretched = (InstabilityKind, [f64; 2]);
 
-    /// Kind, begin and end of the intervals of two numbers in closed form over 0 to 10 rad/s. At the critical speeds one of them is zero.
-    fn read(numbers: &(dyn Fn(f64) -> [Sloped; 2] + Sync), critical: [f64; 2]) -> Vec<Stretched> {
+    /// Pieces of two numbers in closed form over 0 to 10 rad/s. At the critical speeds one of them is zero.
+    fn pieces(numbers: &(dyn Fn(f64) -> [Sloped; 2] + Sync), critical: [f64; 2]) -> Vec<Piece> {
         const BESIDE: f64 = 1e-6;
         let solve = |speed: f64| {
             // A wave far above gives the search a gap to end in.
@@ -422,12 +392,21 @@ mod tests {
         let mut speeds: Vec<f64> = (0..9).map(|k| 1.25 * f64::from(k)).collect();
         speeds.extend(critical.iter().flat_map(|c| [c - BESIDE, c + BESIDE]));
         speeds.sort_by(f64::total_cmp);
-        let pieces = search.pieces(&speeds).unwrap();
+        search.pieces(&speeds).unwrap()
+    }
+
+    /// Kind, begin and end of the intervals of such numbers, flutter first.
+    fn read(numbers: &(dyn Fn(f64) -> [Sloped; 2] + Sync), critical: [f64; 2]) -> Vec<Stretched> {
+        let pieces = pieces(numbers, critical);
         let all = stretches(&pieces, &critical);
         let ends = |stretch: &Stretch<'_>| [stretch.begin.speed(), stretch.end.speed()];
-        all.iter()
+        let mut found: Vec<Stretched> = all
+            .iter()
             .map(|stretch| (stretch.kind, ends(stretch)))
-            .collect()
+            .collect();
+        let rank = |(kind, _): &Stretched| *kind == InstabilityKind::Divergence;
+        found.sort_by(|x, y| rank(x).cmp(&rank(y)).then(x.1.partial_cmp(&y.1).unwrap()));
+        found
     }
 
     fn assert_read(found: &[Stretched], expected: &[Stretched]) {
@@ -440,8 +419,8 @@ mod tests {
         }
     }
 
-    /// D = (Ω − 3)(Ω − 7)/4. One λ² is above zero at both ends of the range; the other one, too, from D = 1 on; both coalesce at 3 and
-    /// split at 7. Divergence is one interval up to 3, whether one λ is real or two.
+    /// D = (Ω − 3)(Ω − 7)/4. One λ² is above zero at both ends of the range; the other one passes zero where D = 1; both coalesce at 3 and
+    /// split at 7.
     #[test]
     fn divergence_ends_where_two_real_eigenvalues_continue_as_flutter() {
         use InstabilityKind::{Divergence, Flutter};
@@ -451,6 +430,8 @@ mod tests {
         let expected = [
             (Flutter, [3.0, 7.0]),
             (Divergence, [0.0, 3.0]),
+            (Divergence, [critical[0], 3.0]),
+            (Divergence, [7.0, critical[1]]),
             (Divergence, [7.0, 10.0]),
         ];
         assert_read(&read(&numbers, critical), &expected);
@@ -466,6 +447,8 @@ mod tests {
         let expected = [
             (Flutter, [4.999, 5.001]),
             (Divergence, [0.0, 4.999]),
+            (Divergence, [critical[0], 4.999]),
+            (Divergence, [5.001, critical[1]]),
             (Divergence, [5.001, 10.0]),
         ];
         assert_read(&read(&numbers, critical), &expected);
@@ -487,5 +470,23 @@ mod tests {
             read(&numbers, critical),
             [(InstabilityKind::Divergence, critical)]
         );
+    }
+
+    /// λ² = 10⁻⁴ ± √(0.1 (Ω' − Ω)) with Ω' = 5 + 10⁻⁷: at 5 the smaller one passes zero, and just behind, in the same step, both coalesce.
+    #[test]
+    fn divergence_that_turns_into_flutter_behind_a_critical_speed_does_not_end_there() {
+        let numbers = |speed: f64| {
+            let root = c64::from(0.1 * (5.0 + 1e-7 - speed)).sqrt();
+            [root, -root].map(|root| (1e-4 + root, -0.05 / root))
+        };
+        let critical = [5.0, 20.0];
+        let pieces = pieces(&numbers, critical);
+        let all = stretches(&pieces, &critical);
+        let mut real = all
+            .iter()
+            .filter(|stretch| stretch.kind == InstabilityKind::Divergence);
+        let end = real.next().map(|stretch| stretch.end);
+        assert!(matches!(end, Some(Bound::Coalescence { .. })), "{end:?}");
+        assert!(real.next().is_none());
     }
 }
