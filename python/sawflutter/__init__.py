@@ -20,7 +20,7 @@ from ._result import Result
 from ._scene_types import SceneDict, StudyDict
 from .checks import CheckResults
 from .compared import CompareResults, compare
-from .designs import FitResults, PlaceResults, Speeds, StiffnessMap, TradeoffResults
+from .designs import DesignResults, FitResults, PlaceResults, Speeds, StiffnessMap, TradeoffResults
 from .errors import (
     AnalysisError,
     ArgumentError,
@@ -57,6 +57,7 @@ __all__ = [
     "CriticalSpeed",
     "CutResults",
     "DeflectResults",
+    "DesignResults",
     "FitResults",
     "GapResults",
     "InputError",

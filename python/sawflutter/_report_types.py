@@ -38,6 +38,8 @@ Cause: TypeAlias = Literal["side_force", "run_out", "flatness", "imbalance", "os
 
 SteadyState: TypeAlias = Literal["bounded", "unbounded", "beyond_model", "none"]
 
+DecidedSpeed: TypeAlias = Literal["first_critical", "flutter"]
+
 Method: TypeAlias = Literal["reduced", "searched", "dense", "critical_speeds"]
 
 
@@ -285,8 +287,8 @@ class Operating(Entry):
     at_critical_rpm : Critical speed within 5 % of the operating speed; null if there is none.
     side_force_factor : Deflection of the rim at the cut under a constant side force there,
         relative to that at rest; negative if the blade moves against the force. Null unless the
-        saw is stable and within 5 % of a critical speed, if nothing holds the blade's rigid
-        motions, and so close to the critical speed that its error decides.
+        saw is stable, if nothing holds the blade's rigid motions, and so close to a critical
+        speed that its error decides.
     safe_window_rpm : The window without instability: speeds of the sweep around the operating
         speed at which no instability counts, and which are at least 5 % from critical speeds;
         null if the saw is unstable or at a critical speed.
@@ -999,6 +1001,8 @@ class CheckReport(Entry):
         cut, at rest.
     rim_stiffness_n_per_m : Lateral stiffness of this point at the operating speed; null above
         the first critical speed, where it is not defined.
+    side_force_factor : Deflection of this point under a constant side force there at the
+        operating speed, relative to that at rest, as in the report of `analyze`.
     rim_stiffness : Lateral stiffness of this point over the speed.
     rim_speed_m_per_s : Rim speed at the operating speed.
     max_rim_m_per_s : Limit of the rim speed.
@@ -1022,6 +1026,7 @@ class CheckReport(Entry):
     flutter_threshold_per_s: float
     rim_stiffness_at_rest_n_per_m: float
     rim_stiffness_n_per_m: float | None
+    side_force_factor: float | None = field(default=None)
     rim_stiffness: RimStiffness
     rim_speed_m_per_s: float
     max_rim_m_per_s: float
@@ -2378,6 +2383,81 @@ class PlaceReport(Entry):
 
 
 @dataclass(frozen=True, eq=False, repr=False, kw_only=True)
+class ReportCampbellReport(Entry):
+    """Report of an analysis (report.json).
+
+    Attributes
+    ----------
+    sawflutter : Version of the program that wrote the report.
+    scene : The scene, as typed.
+    condition : Whether the saw idles or is in its cut: "idling", or "in the cut at 2800 rpm (4
+        teeth)".
+    unusual_numbers : Numbers that no saw has, each with its key, the usual range, and the
+        remedy. The results hold for the numbers as typed.
+    terms : Terms of the equation of motion that were assembled.
+    modes_at_rest : Lowest oscillating modes of the blade at rest, ascending.
+    overdamped_modes_at_rest : Number of modes at rest that decay without oscillating
+        (overdamped), at rates up to 2π `campbell.complete_to_hz`; they are not listed.
+    critical_speeds : Every critical speed up to the end of the sweep, ascending.
+    critical_speeds_without_damping : Whether `critical_speeds` are those of the saw without its
+        damping: with damping that turns with the blade no eigenvalue of the damped saw is zero
+        at any speed.
+    bands : Bands of instability within the sweep, by onset; `certificate` gives the share of
+        the sweep that is proven to have no others.
+    flutter_rpm : Flutter speed: lowest speed at which flutter counts, see `counted_rpm` of the
+        bands.
+    first_merge_rpm : Onset of the first flutter band, including weak ones.
+    flutter_threshold_per_s : Growth rate above which a band counts as flutter.
+    in_cut : The forces of the cut in the diagram, and the idling saw, if the scene requests it.
+    excitation : Multiples of the rotation speed and their crossings with natural frequencies,
+        if the scene requests them.
+    operating : Comparison of the operating speed with the 85 % rule, if the scene has an
+        operating speed.
+    whirl : Modes at one speed, on request.
+    shapes : Shapes of the blade at every critical speed, at the peak of every band, at the
+        operating speed and at further speeds, on request.
+    accuracy : Size of the basis and estimated errors.
+    work : Number of eigenproblems solved.
+    certificate : Checks of the list of bands: the share of the sweep that is proven to have no
+        unlisted instability, intervals that were searched without proof, and disagreements.
+    campbell : Branches over speed.
+    root_loci : Eigenvalues of the two modes that coalesce at the flutter speed, or else at the
+        onset of the first flutter band, over the speeds around it.
+    membrane : Stress of heat, roll tension and manufacture, if the scene has any.
+    sensitivities : Derivatives of critical speeds and onsets by numbers of the scene, on
+        request.
+    warnings : Remarks on the validity of the result.
+    """
+
+    sawflutter: str
+    scene: SceneDict
+    condition: str = field(default="")
+    unusual_numbers: tuple[str, ...] = field(default=())
+    terms: tuple[str, ...]
+    modes_at_rest: tuple[RestMode, ...]
+    overdamped_modes_at_rest: int = field(default=0)
+    critical_speeds: tuple[CriticalSpeed, ...]
+    critical_speeds_without_damping: bool = field(default=False)
+    bands: tuple[Instability, ...] = field(metadata={"key": "instabilities"})
+    flutter_rpm: float | None = field(metadata={"key": "flutter_speed_rpm"})
+    first_merge_rpm: float | None
+    flutter_threshold_per_s: float
+    in_cut: InCut | None = field(default=None)
+    excitation: Excitation | None = field(default=None)
+    operating: Operating | None
+    whirl: Whirl | None
+    shapes: tuple[EventShape, ...] = field(default=())
+    accuracy: AccuracyEntry
+    work: Work
+    certificate: Certificate
+    campbell: Campbell
+    root_loci: RootLoci | None
+    membrane: Membrane | None
+    sensitivities: tuple[Sensitivity, ...]
+    warnings: tuple[str, ...]
+
+
+@dataclass(frozen=True, eq=False, repr=False, kw_only=True)
 class Resonance(Entry):
     """A resonance of a line.
 
@@ -2473,6 +2553,195 @@ class FrequencyResponse(Entry):
 
 @dataclass(frozen=True, eq=False, repr=False, kw_only=True)
 class ResponseReport(Entry):
+    """Report of steady-state responses (response.json).
+
+    Attributes
+    ----------
+    sawflutter : Version of the program that wrote the report.
+    scene : The scene, as typed.
+    condition : Whether the saw idles or is in its cut: "idling", or "in the cut at 2800 rpm (4
+        teeth)".
+    unusual_numbers : Numbers that no saw has, each with its key, the usual range, and the
+        remedy. The results hold for the numbers as typed.
+    degrees_of_freedom : Size of the basis.
+    from_rpm : First speed.
+    to_rpm : Last speed.
+    probe_radius_m : Distance of the probe from the axis.
+    probe_angle_deg : Angle of the probe.
+    cut_angle_deg : Angle of the cut, at whose place on the rim the deviation of the board is
+        read.
+    damped : Whether any term of the equation of motion dissipates energy; without damping
+        amplitudes grow without bound at a resonance.
+    linear_limit_m : Largest amplitude that is reported: five times the smallest thickness.
+    rpm : Rotation speeds, ascending, the same for every line.
+    lines : Responses, one for each cause and order of the rotation speed.
+    board_deviation_m : Largest distance of the cut surface from the middle plane of the blade
+        at rest, at each speed: the static deflection of the rim at the cut and all amplitudes
+        there, as if their maxima coincided; null where one of them is null.
+    operating : Deflections at the operating speed; null if it is not within the sweep.
+    points : Frequency response between two points at one speed; null if neither the scene nor
+        the options have a speed.
+    bands : Bands of instability, in which no steady state exists.
+    warnings : Remarks on the validity of the result.
+    """
+
+    sawflutter: str
+    scene: SceneDict
+    condition: str = field(default="")
+    unusual_numbers: tuple[str, ...] = field(default=())
+    degrees_of_freedom: int
+    from_rpm: float
+    to_rpm: float
+    probe_radius_m: float
+    probe_angle_deg: float
+    cut_angle_deg: float
+    damped: bool
+    linear_limit_m: float
+    rpm: FloatArray
+    lines: tuple[ResponseLine, ...]
+    board_deviation_m: FloatArray
+    operating: OperatingResponse | None
+    points: FrequencyResponse | None
+    bands: tuple[Instability, ...] = field(metadata={"key": "instabilities"})
+    warnings: tuple[str, ...]
+
+
+@dataclass(frozen=True, eq=False, repr=False, kw_only=True)
+class DecisiveSpeed(Entry):
+    """A speed that decides on a saw, in one condition.
+
+    Attributes
+    ----------
+    speed : The speed.
+    condition : Condition of the saw: "idling", or "in the cut at 1800 rpm (3.77 teeth)".
+    rpm : Its value; null if the sweep contains none.
+    margin_rpm : Distance above the operating speed, negative below it; null without one of
+        both.
+    tolerance_rpm : Change of the speed by usual tolerances of production, to first order: the
+        root of the sum of the squares of the changes by each number. Null if the onset of the
+        band is no event with a derivative.
+    """
+
+    speed: DecidedSpeed
+    condition: str
+    rpm: float | None
+    margin_rpm: float | None
+    tolerance_rpm: float | None
+
+
+@dataclass(frozen=True, eq=False, repr=False, kw_only=True)
+class Change(Entry):
+    """A change of one number of the scene, with the speeds of the changed saw.
+
+    Attributes
+    ----------
+    path : JSON path of the number.
+    from_ : Value in the scene.
+    to : Changed value.
+    lowest_critical_rpm : First critical speed of the changed saw, also above the sweep; null if
+        it has none.
+    flutter_rpm : Its flutter speed; null if the sweep contains none.
+    """
+
+    path: str
+    from_: float = field(metadata={"key": "from"})
+    to: float
+    lowest_critical_rpm: float | None = field(metadata={"key": "critical_rpm"})
+    flutter_rpm: float | None
+
+
+@dataclass(frozen=True, eq=False, repr=False, kw_only=True)
+class ReportGapReport(Entry):
+    """Report of a saw whose guides have a gap (gap.json).
+
+    Attributes
+    ----------
+    sawflutter : Version of the program that wrote the report.
+    scene : The scene, as typed.
+    condition : Whether the saw idles or is in its cut: "idling", or "in the cut at 2800 rpm (4
+        teeth)".
+    unusual_numbers : Numbers that no saw has, each with its key, the usual range, and the
+        remedy. The results hold for the numbers as typed.
+    degrees_of_freedom : Size of the basis.
+    from_rpm : First speed.
+    to_rpm : Last speed.
+    smallest_gap_m : Smallest gap of a one-sided guide.
+    free : The chart of a blade that moves within all gaps, where only the films of the pads
+        act.
+    amplitudes : The charts at amplitudes beyond the smallest gap, ascending.
+    linear : The linear chart of the scene, with guides of their full stiffness.
+    half_way_amplitude_m : Amplitude at which the first critical speed lies half way between
+        that of the free blade and that of the linear chart: at smaller amplitudes the chart is
+        that of the free blade. Null if the two differ by less than 0.1 %, and if no amplitude
+        changes it as far, because guides on one side push the blade out of their reach.
+    deviation : The deflection at the cut.
+    oscillation : The oscillation of the blade; null without a cause of one.
+    friction : The heat of friction at the pads with the gaps of the scene; null without a
+        coefficient of friction.
+    warnings : Remarks on the validity of the result.
+    """
+
+    sawflutter: str
+    scene: SceneDict
+    condition: str = field(default="")
+    unusual_numbers: tuple[str, ...] = field(default=())
+    degrees_of_freedom: int
+    from_rpm: float
+    to_rpm: float
+    smallest_gap_m: float
+    free: AtAmplitude
+    amplitudes: tuple[AtAmplitude, ...]
+    linear: AtAmplitude
+    half_way_amplitude_m: float | None
+    deviation: Deviation
+    oscillation: Oscillation | None = field(default=None)
+    friction: Friction | None = field(default=None)
+    warnings: tuple[str, ...]
+
+
+@dataclass(frozen=True, eq=False, repr=False, kw_only=True)
+class DesignReport(Entry):
+    """Report of a saw for a decision (design.json).
+
+    Attributes
+    ----------
+    sawflutter : Version of the program that wrote the report.
+    scene : The scene, as typed.
+    condition : Whether the saw is shown idling only: "idling", or "idling, and in the cut at
+        1800 rpm (3.77 teeth)".
+    unusual_numbers : Numbers that no saw has, each with its key, the usual range, and the
+        remedy. The results hold for the numbers as typed.
+    customer : For whom the report is; null if not given.
+    date : Date of the report as typed; null if not given.
+    idling : Analysis of the idling saw, with sensitivities.
+    in_cut : Analysis under the forces of the cut, with sensitivities; null for a scene without
+        a cut.
+    response : Steady response of the saw in its cut, or idling without a cut.
+    speeds : First critical speed and flutter speed, idling and in the cut.
+    raised : Speed that the changes raise.
+    changes : The changes of one number that raise it most, the best first.
+    gap : Guides with a gap; null if no guide is one-sided.
+    warnings : Remarks on the validity of the result.
+    """
+
+    sawflutter: str
+    scene: SceneDict
+    condition: str
+    unusual_numbers: tuple[str, ...]
+    customer: str | None
+    date: str | None
+    idling: ReportCampbellReport
+    in_cut: ReportCampbellReport | None
+    response: ResponseReport
+    speeds: tuple[DecisiveSpeed, ...]
+    raised: DecidedSpeed
+    changes: tuple[Change, ...]
+    gap: ReportGapReport | None
+    warnings: tuple[str, ...]
+
+
+@dataclass(frozen=True, eq=False, repr=False, kw_only=True)
+class ResponseResponseReport(Entry):
     """Report of steady-state responses (response.json).
 
     Attributes

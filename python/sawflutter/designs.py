@@ -10,7 +10,7 @@ from typing import Any
 from . import _native
 from ._drawn import Drawn
 from ._entry import Entry, FloatArray
-from ._report_types import FitReport, Instability, PlaceReport, Setting
+from ._report_types import DesignReport, FitReport, Instability, PlaceReport, Setting
 from ._result import Report, Result
 from ._values import Number, number
 
@@ -30,6 +30,13 @@ class PlaceResults(Result, PlaceReport):
     panel without a map."""
 
     _command, _rows_of, _steps = "place", "parameters", "saws"
+
+
+class DesignResults(Result, DesignReport):
+    """Report of a saw for a decision: its analyses idling and in the cut, its steady response, margins
+    and the changes that help most. ``save`` writes the page to print to a name that ends in ``.html``."""
+
+    _command, _rows_of = "report", "speeds"
 
 
 class TradeoffResults(Report):

@@ -25,7 +25,7 @@ from ._scene_types import (
 )  # fmt: skip
 from ._values import Number, number, numbers, optional, whole
 from .checks import CheckResults
-from .designs import FitResults, PlaceResults, Speeds, StiffnessMap, TradeoffResults
+from .designs import DesignResults, FitResults, PlaceResults, Speeds, StiffnessMap, TradeoffResults
 from .errors import refused, warned
 from .matrices import Matrices
 from .modes import Modes
@@ -518,6 +518,30 @@ class Scene(Drawn, Mapping[str, Value]):
         """
         return self._asked(DeflectResults, accuracy, tolerance, progress, force_n=force_n,
             angle_deg=angle_deg, to_rpm=to_rpm)
+
+    def run_report(
+        self,
+        *,
+        customer: str | None = None,
+        date: str | None = None,
+        accuracy: Accuracy | None = None,
+        tolerance: Number | None = None,
+        progress: Progress = None,
+    ) -> DesignResults:
+        """Joins what decides on a saw in one report: the answer idling and in the cut, the deviation of the
+        board over speed, margins with usual tolerances of production, and the changes that help most. Saved
+        to a name that ends in .html it is a page to print.
+
+        Parameters
+        ----------
+        customer : str, optional
+            For whom the report is.
+        date : str, optional
+            Date of the report, as it is to be written.
+        accuracy, tolerance, progress
+            As in :meth:`run_campbell`.
+        """
+        return self._asked(DesignResults, accuracy, tolerance, progress, customer=customer, date=date)
 
     def run_response(
         self,

@@ -13,7 +13,7 @@ use sawflutter::analyses::fit::{self, Measurement, Options as FitOptions};
 use sawflutter::analyses::gap::{self, Options as GapOptions};
 use sawflutter::analyses::place::{self, Demands, GapDemands, Options as PlaceOptions, Tolerances};
 use sawflutter::analyses::tradeoff::tradeoff;
-use sawflutter::analyses::{cut, deflect, response, runup, washboard};
+use sawflutter::analyses::{cut, deflect, report, response, runup, washboard};
 use sawflutter::model::scene::{Freed, Scene};
 use sawflutter::modes::{SpectralModel, Strategy};
 use sawflutter::stability::{Analysis, AnalysisOptions, ChosenBasis, ExpectedWork};
@@ -47,6 +47,7 @@ pub fn run(
         "gap" => gap(&options)?,
         "modes" => modes(&options)?,
         "place" => place(&options)?,
+        "report" => report(&options)?,
         "response" => response(&options)?,
         "runup" => Box::new(runup),
         "tradeoff" => Box::new(|scene: &Scene, meter: &Meter| {
@@ -220,6 +221,17 @@ fn deflect(options: &Options<'_>) -> PyResult<Work> {
     Ok(Box::new(move |scene, _| {
         options.checked()?;
         json(&deflect::deflect(scene, &options)?)
+    }))
+}
+
+/// `design.json`.
+fn report(options: &Options<'_>) -> PyResult<Work> {
+    let options = report::Options {
+        customer: options.get("customer")?,
+        date: options.get("date")?,
+    };
+    Ok(Box::new(move |scene, _| {
+        json(&report::report(scene, &options)?)
     }))
 }
 

@@ -11,6 +11,7 @@ use sawflutter::analyses::deflect::DeflectError;
 use sawflutter::analyses::fit::FitError;
 use sawflutter::analyses::gap::GapError;
 use sawflutter::analyses::place::PlaceError;
+use sawflutter::analyses::report::DesignError;
 use sawflutter::analyses::response::ResponseError;
 use sawflutter::analyses::study::{LogError, StudyError};
 use sawflutter::analyses::washboard::WashboardError;
@@ -222,6 +223,7 @@ passed_on! {
     TransientError: Scene, failed;
     GapError: Refused Scene Analysis Spectrum Stretched;
     ResponseError: Refused Scene Analysis Spectrum;
+    DesignError: Scene Analysis Sensitivity Response Gap;
     DeflectError: Refused Scene Analysis, failed;
     CheckError: Scene Analysis Spectrum Stretched;
 }

@@ -22,7 +22,7 @@ def same(folder: Path, name: str, content: bytes) -> None:
 
 def same_report(programs: list[str], found: sf.Result, folder: Path, *arguments: object) -> None:
     """The command of a result prints its summary, and writes its report and its figures."""
-    name = "report" if found._command == "analyze" else found._command
+    name = {"analyze": "report", "report": "design"}.get(found._command, found._command)
     for number, program in enumerate(programs):
         out = folder / str(number)
         done = ran(program, found._command, *arguments, "--accuracy", "draft", "--out", out, "--details")
@@ -92,6 +92,14 @@ def test_the_report_of_gap(programs: list[str], scenes: Path, tmp_path: Path) ->
     table = found.to_dataframe()
     assert len(table) == sum(len(row) for row in rows)
     assert list(table) == ["gap_factor", "force_n", "deflection_m", "largest_deflection_m"]
+
+
+def test_the_report_for_a_decision(programs: list[str], scenes: Path, tmp_path: Path) -> None:
+    saw = sf.Scene.load(scenes / "paper.json")
+    found = saw.run_report(customer="A. Miller", date="2027-01-15", accuracy="draft")
+    options = ["--customer", "A. Miller", "--date", "2027-01-15"]
+    same_report(programs, found, tmp_path, scenes / "paper.json", *options)
+    assert "A. Miller, 2027-01-15" in found.summary()
 
 
 def test_the_report_of_washboarding(

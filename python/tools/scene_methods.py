@@ -17,6 +17,7 @@ TYPES = {
     "speeds": ("Number | Numbers", "float or array_like, optional"),
     "bounds": ("Free", "dict or list of str, optional"),
     "table": ("Measured", "path, DataFrame, array_like or rows, optional"),
+    "text": ("str | None", "str, optional"),
 }
 # Sentences that concern Python only.
 MORE = {
@@ -106,7 +107,7 @@ def method(call: dict[str, Any]) -> str:
     shared = ["accuracy", "tolerance", "progress"][: 2 if call["command"] == "check" else 3]
     types = ("Accuracy | None = None", "Number | None = None", "Progress = None")
     parts += [f"{argument}: {of}" for argument, of in zip(shared, types)]
-    result = {"runup": "RunUp"}.get(call["command"], call["command"].title()) + "Results"
+    result = {"runup": "RunUp", "report": "Design"}.get(call["command"], call["command"].title()) + "Results"
     lines = [f"    def {name}("] + [f"        {part}," for part in parts] + [f"    ) -> {result}:"]
     lines += textwrap.wrap(f'"""{call["about"]}', WIDTH, initial_indent=" " * 8, subsequent_indent=" " * 8)
     lines += ["", "        Parameters", "        ----------"]

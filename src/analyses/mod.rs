@@ -16,6 +16,7 @@ pub mod fit;
 pub mod gap;
 pub mod map;
 pub mod place;
+pub mod report;
 pub mod response;
 pub mod runup;
 mod scene_axis;

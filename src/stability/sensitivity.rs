@@ -52,6 +52,11 @@ pub struct Sensitivity {
 }
 
 impl Sensitivity {
+    /// The change in the unit of the number, which has this value.
+    pub(crate) fn step(&self, value: f64) -> f64 {
+        By::of(&self.parameter).step(value)
+    }
+
     /// Change of the first critical speed, in percent; `None` without a critical speed.
     pub(crate) fn of_first_critical(&self) -> Option<f64> {
         self.critical_speeds_percent.first().copied()
@@ -83,6 +88,24 @@ enum By {
     Percent,
     /// One unit, with its text.
     One(&'static str),
+}
+
+impl By {
+    fn of(path: &str) -> Self {
+        match Quantity::of(path).map_or("", |quantity| quantity.unit) {
+            "°" => By::One("1 degree"),
+            "K" => By::One("1 K"),
+            _ => By::Percent,
+        }
+    }
+
+    /// The change of a number with this value, in its unit.
+    fn step(self, value: f64) -> f64 {
+        match self {
+            By::Percent => 0.01 * value,
+            By::One(_) => 1.0,
+        }
+    }
 }
 
 /// A number of the scene and its change.
@@ -182,12 +205,7 @@ impl Variation {
             let parameter = Parameter::new(&path);
             // A key that the scene omits has no number to vary.
             if let Ok(value) = parameter.get(scene) {
-                let unit = Quantity::of(&path).map_or("", |quantity| quantity.unit);
-                let by = match unit {
-                    "°" => By::One("1 degree"),
-                    "K" => By::One("1 K"),
-                    _ => By::Percent,
-                };
+                let by = By::of(&path);
                 all.push(Variation {
                     parameter,
                     value,
@@ -222,14 +240,6 @@ impl Variation {
         all
     }
 
-    /// Full change of the number, in the unit of its key.
-    fn change(&self) -> f64 {
-        match self.by {
-            By::Percent => 0.01 * self.value,
-            By::One(_) => 1.0,
-        }
-    }
-
     /// Change of the matrices of every component for the full change of the number.
     fn of_matrices(
         &self,
@@ -237,7 +247,7 @@ impl Variation {
         plate: &Plate,
     ) -> Result<Vec<GyroscopicSystem>, SceneError> {
         matrix_slopes(STEP, Differences::Central, |share| {
-            let number = self.value + share * self.change();
+            let number = self.value + share * self.by.step(self.value);
             let scene = scene.file().with(&[(&self.parameter, number)])?;
             Ok(Plate::new(&scene, plate.resolution))
         })

@@ -58,6 +58,7 @@ CASES = {
     "place-fragile": ("paper", {}, ["place", "saw", *QUICK_PLACE, "--map", "2"]),
     "place-limit": ("paper", {}, ["place", "saw", *QUICK_PLACE, "--map", "0", "--min-critical-rpm", "9000"]),
     "place-window": ("paper", {}, ["place", "saw", *QUICK_PLACE, "--map", "0", "--goal", "window"]),
+    "report-paper": ("paper", SHORT, ["report", "saw", "--customer", "A. Miller", "--date", "2027-01-15"]),
     "response-causes": ("paper", {**SHORT, **CAUSES}, ["response", "saw"]),
     "response-frequencies": ("gallery/damped-pad", {}, ["response", "saw", "--rpm", "1200", "--to-hz", "100"]),
     "response-resonance": ("paper", {"side_force.force_n": 2}, ["response", "saw"]),
@@ -85,7 +86,7 @@ CASES = {
     "refused-without-cut": ("paper", {"cut": None}, ["cut", "saw"]),
 }
 HELP = (
-    "analyze cut runup response deflect gap washboard check explore fit place study map compare tradeoff export keys schema"
+    "analyze report cut runup response deflect gap washboard check explore fit place study map compare tradeoff export keys schema"
 )
 CASES |= {f"help-{name}": (None, {}, [name, "--help"]) for name in HELP.split()}
 CASES["help"] = (None, {}, ["--help"])

@@ -57,9 +57,9 @@ pub use self::modes::{
     WhirlMode,
 };
 pub use self::outline::Answer;
-pub(crate) use self::outline::outline;
+pub(crate) use self::outline::{answer, checks, outline};
 #[cfg(feature = "page")]
-pub(crate) use self::outline::{answer, deciding, headline, usable};
+pub(crate) use self::outline::{deciding, headline, usable};
 pub(crate) use self::remarks::{lifting_off, side_force_in_words};
 pub use self::speeds::{CriticalSpeed, InstabilityBand, OperatingPoint};
 pub use self::verdict::Verdict;

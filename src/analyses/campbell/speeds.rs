@@ -98,8 +98,8 @@ pub struct OperatingPoint {
     #[serde(default)]
     pub at_critical_rpm: Option<f64>,
     /// Deflection of the rim at the cut under a constant side force there, relative to that at rest; negative if the
-    /// blade moves against the force. Null unless the saw is stable and within 5 % of a critical speed, if nothing
-    /// holds the blade's rigid motions, and so close to the critical speed that its error decides.
+    /// blade moves against the force. Null unless the saw is stable, if nothing holds the blade's rigid motions, and so
+    /// close to a critical speed that its error decides.
     #[serde(default)]
     pub side_force_factor: Option<f64>,
     /// The window without instability: speeds of the sweep around the operating speed at which no instability

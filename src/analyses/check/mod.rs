@@ -24,9 +24,7 @@ mod static_deflection;
 
 use faer::Scale;
 
-use crate::analyses::campbell::{
-    InstabilityBand, Numbered, add_amplitudes, lifting_off, side_force_in_words,
-};
+use crate::analyses::campbell::{InstabilityBand, Numbered, add_amplitudes, lifting_off};
 use crate::analyses::deflect::compliance_m_per_n;
 use crate::model::scene::{Polar, Scene, SceneError, SpeedRange, rpm};
 use crate::modes::SpectrumError;
@@ -124,6 +122,7 @@ pub fn check(scene: &Scene, limits: &Limits) -> Result<CheckReport, CheckError> 
         rim_stiffness: bending
             .map(|bending| bending.rim_stiffness())
             .unwrap_or_default(),
+        side_force_factor: side_force_factor(analysis, operating),
         rim_speed_m_per_s: operating * scene.blade().outer_radius_m,
         max_rim_m_per_s: limits.max_rim_m_per_s,
         max_amplitude_m: limits.max_amplitude_m,
@@ -168,11 +167,8 @@ fn warnings(analysis: &Analysis, limits: &Limits, compared_gaps: usize) -> Vec<S
     let mut warnings: Vec<String> = lifting_off(scene).into_iter().collect();
     let operating = limits.operating_rad_per_s;
     if let Some(critical_rpm) = analysis.critical_rpm_at(operating) {
-        let factor = side_force_factor(analysis, operating);
-        let deflection = side_force_in_words(rpm(operating), factor)
-            .map_or(String::new(), |words| format!("; {words}"));
         warnings.push(format!(
-            "the operating speed is within 5 % of the critical speed {critical_rpm:.1} rpm{deflection}"
+            "the operating speed is within 5 % of the critical speed {critical_rpm:.1} rpm"
         ));
     }
     let gaps = scene.file().guides.iter().filter(|g| g.gap_m.is_some());

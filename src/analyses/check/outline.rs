@@ -1,6 +1,7 @@
 //! The text of a check.
 
 use super::{CheckReport, Criterion};
+use crate::analyses::campbell::side_force_in_words;
 use crate::page::outline::Outline;
 use crate::page::text::shown_to;
 
@@ -25,6 +26,9 @@ pub fn outline(report: &CheckReport) -> Outline {
         text.sentence(format!("{word} {name}: {finding}"));
     }
     text.sentence(report.rim_stiffness_in_words());
+    if let Some(words) = side_force_in_words(report.operating_rpm, report.side_force_factor) {
+        text.sentence(words);
+    }
     text.remarks("Warning", &report.warnings);
     text
 }

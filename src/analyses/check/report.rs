@@ -45,6 +45,10 @@ pub struct CheckReport {
     /// Lateral stiffness of this point at the operating speed; null above the first critical speed, where it is
     /// not defined.
     pub rim_stiffness_n_per_m: Option<f64>,
+    /// Deflection of this point under a constant side force there at the operating speed, relative to that at rest, as in the report of
+    /// `analyze`.
+    #[serde(default)]
+    pub side_force_factor: Option<f64>,
     /// Lateral stiffness of this point over the speed.
     pub rim_stiffness: RimStiffness,
     /// Rim speed at the operating speed.

@@ -46,14 +46,16 @@ pub(crate) fn rim_stiffness_at_rest_n_per_m(analysis: &Analysis) -> Option<f64> 
 /// Deflection of the rim at the cut under a constant side force there, relative to that at rest: φᵀK(Ω)⁻¹φ /
 /// φᵀK(0)⁻¹φ, negative above a critical speed whose wave dominates, where the blade moves against the force.
 ///
-/// Only for a stable saw within 5 % of a critical speed; `None` elsewhere, if rigid motions are free, and if the
-/// estimated error of the critical speed is more than a tenth of the distance from it.
+/// Only for a stable saw; `None` elsewhere, if rigid motions are free, and if the estimated error of the nearest critical speed is
+/// more than a tenth of the distance from it.
 pub(crate) fn side_force_factor(analysis: &Analysis, speed_rad_per_s: f64) -> Option<f64> {
-    let verdict = analysis.verdict(speed_rad_per_s);
-    let critical = analysis.model.critical.get(verdict.critical?)?;
-    let distance = (speed_rad_per_s / critical.speed_rad_per_s - 1.0).abs();
-    let error = analysis.estimated_relative_error?;
-    if verdict.state != StabilityState::Stable || error > DISTANCE_ERROR * distance {
+    let critical = analysis.model.critical.iter();
+    let distance = critical
+        .map(|critical| (speed_rad_per_s / critical.speed_rad_per_s - 1.0).abs())
+        .fold(f64::INFINITY, f64::min);
+    let error = analysis.estimated_relative_error.unwrap_or(0.0);
+    let is_stable = analysis.verdict(speed_rad_per_s).state == StabilityState::Stable;
+    if !is_stable || error > DISTANCE_ERROR * distance {
         return None;
     }
     let (plate, place) = (point_load_plate(analysis), rim_at_cut(&analysis.scene));
@@ -117,7 +119,7 @@ mod tests {
     fn the_factor_is_that_of_the_response() {
         let analysis = Analysis::new(&clamped(3800.0)).unwrap();
         let critical = analysis.model.critical[0].speed_rad_per_s;
-        for ratio in [0.96, 1.045] {
+        for ratio in [0.5, 0.96, 1.045] {
             let saw = clamped(rpm(ratio * critical))
                 .edited(|saw| {
                     let angle_deg = clamped(3800.0).cut_angle_rad().to_degrees();

@@ -55,9 +55,11 @@ pub enum ArgumentKind {
     Bounds,
     /// A table of measured frequencies.
     Table,
+    /// Words.
+    Text,
 }
 
-use ArgumentKind::{Bounds, Count, Flag, Number, Speeds, Table, Word};
+use ArgumentKind::{Bounds, Count, Flag, Number, Speeds, Table, Text, Word};
 
 const fn a(
     name: &'static str,
@@ -165,6 +167,15 @@ pub const CALLS: &[Call] = &[
             a("force_n", "force-n", Number(None), FORCE).of_scene("side_force.force_n"),
             a("angle_deg", "", Number(None), "Angle of the side force, in place of that of the scene").of_scene("side_force.angle_deg"),
             a("to_rpm", "to-rpm", Number(None), "Last speed; by default the end of the scene's sweep"),
+        ],
+    },
+    Call {
+        command: "report",
+        method: "run_report",
+        about: "Joins what decides on a saw in one report: the answer idling and in the cut, the deviation of the board over speed, margins with usual tolerances of production, and the changes that help most. Saved to a name that ends in .html it is a page to print.",
+        arguments: &[
+            a("customer", "customer", Text, "For whom the report is"),
+            a("date", "date", Text, "Date of the report, as it is to be written"),
         ],
     },
     Call {

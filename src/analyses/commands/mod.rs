@@ -23,6 +23,7 @@ use super::fit::{self, FitReport};
 use super::gap::{self, GapReport};
 use super::map::{self, MapReport};
 use super::place::{self, PlaceReport};
+use super::report::{self, DesignReport};
 use super::response::{self, ResponseReport};
 use super::runup::{self, RunUpReport};
 use super::study::{self, StudyReport};
@@ -271,6 +272,17 @@ commands! {
     "place", "place.json", PlaceReport {
         outline: place::outline,
         figures: ["place" => place::chart::chart],
+    }
+    "report", "design.json", DesignReport {
+        outline: report::outline,
+        figures: [
+            "design-campbell" => |report: &DesignReport| campbell::diagram::sheet(&report.idling, CampbellView::default()),
+            "design-in-cut" => |report: &DesignReport| report.in_cut.as_ref().and_then(campbell::in_cut_chart::chart),
+            "design-response" => |report: &DesignReport| response::chart::chart(&report.response),
+        ],
+        charts: [
+            "design-campbell" => |report: &DesignReport| campbell::diagram::chart(&report.idling, true)
+        ],
     }
     "response", "response.json", ResponseReport {
         outline: response::outline,

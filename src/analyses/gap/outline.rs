@@ -18,21 +18,7 @@ pub fn outline(report: &GapReport) -> Outline {
         &report.condition,
         &report.unusual_numbers,
     );
-    text.headline(half_way(report));
-    let critical = |at: &AtAmplitude| SPEED.fixed(1, at.critical_rpm.first().copied()).or("none");
-    let half = LENGTH.digits(4, report.half_way_amplitude_m).or("none");
-    let facts = [
-        Fact::new("guides act half from an amplitude of", half),
-        Fact::new(
-            "first critical speed inside the gaps",
-            critical(&report.free),
-        ),
-        Fact::new(
-            "first critical speed of linear guides",
-            critical(&report.linear),
-        ),
-    ];
-    text.facts("", facts);
+    text.extend(answer(report));
     text.table(over_amplitude(report));
     deviation(&mut text, report);
     if let Some(found) = &report.oscillation {
@@ -51,6 +37,27 @@ pub fn outline(report: &GapReport) -> Outline {
     }
     text.sentence(MEANING);
     text.remarks("Warning", &report.warnings);
+    text
+}
+
+/// The amplitude from which the guides act, and what they do to the first critical speed.
+pub fn answer(report: &GapReport) -> Outline {
+    let mut text = Outline::default();
+    text.headline(half_way(report));
+    let critical = |at: &AtAmplitude| SPEED.fixed(1, at.critical_rpm.first().copied()).or("none");
+    let half = LENGTH.digits(4, report.half_way_amplitude_m).or("none");
+    let facts = [
+        Fact::new("guides act half from an amplitude of", half),
+        Fact::new(
+            "first critical speed inside the gaps",
+            critical(&report.free),
+        ),
+        Fact::new(
+            "first critical speed of linear guides",
+            critical(&report.linear),
+        ),
+    ];
+    text.facts("", facts);
     text
 }
 

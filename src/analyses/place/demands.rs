@@ -158,7 +158,7 @@ impl Tolerances {
     }
 
     /// The tolerance of a number with this value, in its unit.
-    pub(super) fn of(&self, parameter: &Parameter, value: f64) -> f64 {
+    pub(crate) fn of(&self, parameter: &Parameter, value: f64) -> f64 {
         match Quantity::kind_of(parameter.path()) {
             Kind::GuideRadius | Kind::Radius => self.radius_m,
             Kind::Angle => self.angle_deg,

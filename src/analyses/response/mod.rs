@@ -25,7 +25,7 @@ mod warnings;
 
 pub use crate::motion::steady::Cause;
 pub use options::Options;
-pub(crate) use outline::outline;
+pub(crate) use outline::{outline, verdict};
 pub use report::{
     FrequencyResponse, OperatingResponse, Resonance, ResponseLine, ResponseReport, SteadyState,
 };
@@ -64,8 +64,16 @@ pub enum ResponseError {
 /// [`ResponseError`].
 pub fn response(scene: &Scene, options: &Options) -> Result<ResponseReport, ResponseError> {
     options.checked()?;
+    of_analysis(&Analysis::new(scene)?, options)
+}
+
+/// The response of an analysed saw.
+pub(crate) fn of_analysis(
+    analysis: &Analysis,
+    options: &Options,
+) -> Result<ResponseReport, ResponseError> {
+    let scene = &analysis.scene;
     let (force_n, is_assumed) = constant_force_n(scene);
-    let analysis = Analysis::new(scene)?;
     let plate = &analysis.model.plate;
     let excitations = |plate| loads(plate, scene, force_n);
     let loads = excitations(plate)?;
@@ -74,7 +82,7 @@ pub fn response(scene: &Scene, options: &Options) -> Result<ResponseReport, Resp
     let operating = scene.operating_rad_per_s().filter(within);
     let asked = options.speed_rad_per_s(range)?;
     let solver = Solver::new(plate, scene);
-    let motion = Motion(&analysis);
+    let motion = Motion(analysis);
     let mut speeds = even(range, operating);
     let mut families = Vec::new();
     for load in &loads {

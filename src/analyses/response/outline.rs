@@ -61,7 +61,8 @@ fn force_to_probe(points: &FrequencyResponse) -> String {
     format!("Force to probe at {:.0} rpm: {amplitude}", points.rpm)
 }
 
-fn verdict(report: &ResponseReport) -> String {
+/// The deflection at the cut at the operating speed, in one sentence.
+pub fn verdict(report: &ResponseReport) -> String {
     let Some(operating) = &report.operating else {
         let known = report
             .rpm

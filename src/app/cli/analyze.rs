@@ -154,11 +154,7 @@ fn in_cut(scene: &Scene, rpm: Option<f64>) -> anyhow::Result<Scene> {
         .or(cut.runs.first().map(|run| run.rpm)).context(
         "--in-cut has no speed, and the scene neither operating_rpm nor cut.speeds; name one, like --in-cut 1800",
     )?;
-    let charted = scene.edited(|file| {
-        file.cut
-            .iter_mut()
-            .for_each(|cut| cut.chart_rpm = Some(rpm));
-    });
+    let charted = scene.charted_in_cut(rpm);
     charted.context("--in-cut was refused")
 }
 

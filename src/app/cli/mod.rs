@@ -23,6 +23,7 @@ mod page;
 mod pictures;
 mod place;
 mod progress;
+mod report;
 mod response;
 mod runup;
 mod scheduler;
@@ -55,6 +56,9 @@ enum Command {
     /// Chart a saw: report.json, campbell.csv, and figures as PNG and SVG
     #[command(after_help = analyze::EXAMPLES)]
     Analyze(analyze::Arguments),
+    /// Report a saw on one page: answer, deviation, margins, what to change; report.html, design.json
+    #[command(after_help = report::EXAMPLES)]
+    Report(report::Arguments),
     /// Cut wood: is the saw stable before, during and after? cut.json and figures
     #[command(after_help = cut::EXAMPLES)]
     Cut(cut::Arguments),
@@ -175,6 +179,7 @@ fn command(command: Option<Command>) -> anyhow::Result<bool> {
         Some(Command::Analyze(arguments)) => analyze::run(&arguments),
         Some(Command::Cut(arguments)) => cut::run(&arguments),
         Some(Command::Runup(arguments)) => runup::run(&arguments),
+        Some(Command::Report(arguments)) => report::run(&arguments),
         Some(Command::Response(arguments)) => response::run(&arguments),
         Some(Command::Deflect(arguments)) => deflect::run(&arguments),
         Some(Command::Gap(arguments)) => gap::run(&arguments),

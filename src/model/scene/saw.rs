@@ -65,6 +65,17 @@ impl Scene {
         self.edited(|file| file.cut.iter_mut().for_each(|cut| cut.chart_rpm = None))
     }
 
+    /// The saw with a Campbell diagram that includes the forces of its cut at a speed in rpm.
+    ///
+    /// # Errors
+    /// [`SceneError`] if the scene has no such cut.
+    pub fn charted_in_cut(&self, rpm: f64) -> Result<Scene, SceneError> {
+        self.edited(|file| {
+            let cut = file.cut.iter_mut();
+            cut.for_each(|cut| cut.chart_rpm = Some(rpm));
+        })
+    }
+
     /// What the saw of the scene does at every speed, as all reports name it: "idling", or "in the cut at 2800 rpm
     /// (4 teeth)" with `cut.chart_rpm`. [`Plate::new`](crate::model::plate::Plate::new) makes the matrices of this saw.
     pub fn condition(&self) -> String {

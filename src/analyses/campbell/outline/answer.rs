@@ -100,6 +100,9 @@ fn at_operating_speed(text: &mut Outline, report: &Report, operating: &Operating
     if let Some(words) = at_critical_speed(report, operating) {
         text.reason(words);
     }
+    if let Some(words) = side_force_in_words(operating.rpm, operating.side_force_factor) {
+        text.reason(words);
+    }
     if let Some(words) = rule(operating) {
         text.reason(words);
     }
@@ -175,10 +178,8 @@ fn at_critical_speed(report: &Report, operating: &OperatingPoint) -> Option<Stri
     let rpm = operating.at_critical_rpm?;
     let critical = report.critical_speeds.iter().find(|c| c.rpm == rpm);
     let name = critical.map_or(String::new(), |c| format!(" ({})", c.name));
-    let deflection = side_force_in_words(operating.rpm, operating.side_force_factor)
-        .map_or(String::new(), |words| format!(": {words}"));
     Some(format!(
-        "within {:.0} % of the critical speed {rpm:.1} rpm{name}{deflection}",
+        "within {:.0} % of the critical speed {rpm:.1} rpm{name}",
         100.0 * CRITICAL_MARGIN
     ))
 }

@@ -10,6 +10,7 @@ mod whirl;
 pub use answer::{Answer, answer};
 #[cfg(feature = "page")]
 pub use answer::{deciding, headline, usable};
+pub use checks::checks;
 
 use super::Report;
 use crate::model::scene::BladeFile;
@@ -41,7 +42,7 @@ pub fn outline(report: &Report) -> Outline {
     influences::heat(&mut text, report);
     text.table(influences::sensitivity(report));
     whirl::whirl(&mut text, report);
-    checks::checks(&mut text, report);
+    checks(&mut text, report);
     text.remarks("Warning", &report.warnings);
     text
 }

@@ -1,0 +1,26 @@
+//! Reasons for which a report fails.
+
+use crate::analyses::gap::GapError;
+use crate::analyses::response::ResponseError;
+use crate::model::scene::SceneError;
+use crate::stability::{AnalysisError, SensitivityError};
+
+/// Reason for which the report of a saw could not be computed.
+#[derive(Debug, thiserror::Error)]
+pub enum DesignError {
+    /// The scene was refused.
+    #[error(transparent)]
+    Scene(#[from] SceneError),
+    /// The saw could not be analysed.
+    #[error(transparent)]
+    Analysis(#[from] AnalysisError),
+    /// The effects of the numbers of the scene could not be computed.
+    #[error(transparent)]
+    Sensitivity(#[from] SensitivityError),
+    /// The steady response could not be computed.
+    #[error(transparent)]
+    Response(#[from] ResponseError),
+    /// The guides with a gap could not be evaluated.
+    #[error(transparent)]
+    Gap(#[from] GapError),
+}

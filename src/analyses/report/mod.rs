@@ -1,0 +1,229 @@
+//! The report of a saw for a decision: can it run at its speed, by which margin, how far does it deviate, and what should be changed.
+//!
+//! [`report`](report()) joins what the other commands compute: the analysis of the idling saw, that under the forces of its cut, and the
+//! steady response. It adds how far the critical speeds and the flutter speed are from the operating speed and how much of that usual
+//! tolerances of production take ([`DecisiveSpeed`]), and the changes of the saw that raise the speed which decides most
+//! ([`Change`]), each computed anew. A part that the scene does not need is absent: the cut without a cut, the gap without a one-sided
+//! guide.
+
+mod change;
+mod decisive_speed;
+mod error;
+mod outline;
+
+pub use change::Change;
+pub use decisive_speed::{DecidedSpeed, DecisiveSpeed};
+pub use error::DesignError;
+pub(crate) use outline::outline;
+
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+use super::campbell::{Report, Sensitivity};
+use super::gap::{self, GapReport, gap};
+use super::response::{self, ResponseReport};
+use crate::model::scene::{Scene, SceneFile, rpm};
+use crate::stability::Analysis;
+
+/// Words on the page, which influence no number.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct Options {
+    /// For whom the report is.
+    pub customer: Option<String>,
+    /// Its date.
+    pub date: Option<String>,
+}
+
+/// Report of a saw for a decision (`design.json`).
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct DesignReport {
+    /// Version of the program that wrote the report.
+    pub sawflutter: String,
+    /// The scene, as typed.
+    pub scene: SceneFile,
+    /// Whether the saw is shown idling only: "idling", or "idling, and in the cut at 1800 rpm (3.77 teeth)".
+    pub condition: String,
+    /// Numbers that no saw has, each with its key, the usual range, and the remedy. The results hold for the numbers as typed.
+    pub unusual_numbers: Vec<String>,
+    /// For whom the report is; null if not given.
+    pub customer: Option<String>,
+    /// Date of the report as typed; null if not given.
+    pub date: Option<String>,
+    /// Analysis of the idling saw, with sensitivities.
+    pub idling: Report,
+    /// Analysis under the forces of the cut, with sensitivities; null for a scene without a cut.
+    pub in_cut: Option<Report>,
+    /// Steady response of the saw in its cut, or idling without a cut.
+    pub response: ResponseReport,
+    /// First critical speed and flutter speed, idling and in the cut.
+    pub speeds: Vec<DecisiveSpeed>,
+    /// Speed that the changes raise.
+    pub raised: DecidedSpeed,
+    /// The changes of one number that raise it most, the best first.
+    pub changes: Vec<Change>,
+    /// Guides with a gap; null if no guide is one-sided.
+    pub gap: Option<GapReport>,
+    /// Remarks on the validity of the result.
+    pub warnings: Vec<String>,
+}
+
+/// Computes the report of a saw.
+///
+/// # Errors
+/// [`DesignError`].
+pub fn report(scene: &Scene, options: &Options) -> Result<DesignReport, DesignError> {
+    let still = scene.idling()?;
+    let cutting = in_cut(scene)?;
+    let analysed = |scene: &Scene| -> Result<(Analysis, Report), DesignError> {
+        let analysis = Analysis::new(scene)?;
+        let mut report = analysis.report();
+        report.sensitivities = Sensitivity::all(&analysis)?;
+        Ok((analysis, report))
+    };
+    let (analysis, idling) = analysed(&still)?;
+    let cut = cutting.as_ref().map(analysed).transpose()?;
+    let deciding_scene = cutting.as_ref().unwrap_or(&still);
+    let (deciding_analysis, deciding) = match &cut {
+        Some((analysis, report)) => (analysis, report),
+        None => (&analysis, &idling),
+    };
+    let response = response::of_analysis(deciding_analysis, &response::Options::default())?;
+    let speeds = [Some(&idling), cut.as_ref().map(|(_, report)| report)]
+        .into_iter()
+        .flatten()
+        .flat_map(DecisiveSpeed::of)
+        .collect();
+    let raised = DecidedSpeed::to_raise(deciding);
+    let changes = Change::best(
+        deciding_scene,
+        deciding_analysis.range_rad_per_s,
+        deciding,
+        raised,
+    )?;
+    let one_sided = gap::Options::default();
+    let gap = match one_sided.checked(scene) {
+        Ok(()) => Some(gap(&still, &one_sided)?),
+        Err(_) => None,
+    };
+    let condition = match &cut {
+        Some((_, report)) => format!("idling, and {}", report.condition),
+        None => idling.condition.clone(),
+    };
+    let reports = [
+        Some(&idling.warnings),
+        cut.as_ref().map(|(_, report)| &report.warnings),
+    ];
+    let mut warnings: Vec<String> = Vec::new();
+    let all = reports.into_iter().flatten().chain([&response.warnings]);
+    for warning in all.chain(gap.iter().map(|gap| &gap.warnings)).flatten() {
+        if !warnings.contains(warning) {
+            warnings.push(warning.clone());
+        }
+    }
+    Ok(DesignReport {
+        sawflutter: idling.sawflutter.clone(),
+        scene: scene.file().clone(),
+        condition,
+        unusual_numbers: idling.unusual_numbers.clone(),
+        customer: options.customer.clone(),
+        date: options.date.clone(),
+        idling,
+        in_cut: cut.map(|(_, report)| report),
+        response,
+        speeds,
+        raised,
+        changes,
+        gap,
+        warnings,
+    })
+}
+
+/// The scene under the forces of its cut at the operating speed, or else at the first speed of the cut; `None` without a cut.
+fn in_cut(scene: &Scene) -> Result<Option<Scene>, DesignError> {
+    let Some(cut) = scene.cut() else {
+        return Ok(None);
+    };
+    let operating = scene.operating_rad_per_s().map(rpm);
+    let speed = operating.or(cut.runs.first().map(|run| run.rpm));
+    let charted = speed.map(|rpm| scene.charted_in_cut(rpm));
+    Ok(charted.transpose()?)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::model::scene::Accuracy;
+
+    fn reported(change: impl FnOnce(&mut SceneFile)) -> DesignReport {
+        let scene = Scene::paper().edited(|file| {
+            file.accuracy = Accuracy::Draft;
+            change(file);
+        });
+        report(&scene.unwrap(), &Options::default()).unwrap()
+    }
+
+    /// Without guides every critical speed is in proportion to the thickness h, to √E and to 1/√ρ: tolerances of 1 % of each change it by
+    /// the root of 1² + 0.5² + 0.5² percent.
+    #[test]
+    fn tolerances_of_a_free_blade_are_those_of_the_closed_form() {
+        let found = reported(|file| {
+            file.guides.clear();
+            file.cut = None;
+        });
+        let critical = &found.speeds[0];
+        let share = critical.tolerance_rpm.unwrap() / critical.rpm.unwrap();
+        assert!(
+            (share / (1e-2 * 1.5_f64.sqrt()) - 1.0).abs() < 1e-6,
+            "{share}"
+        );
+        assert!(found.in_cut.is_none() && found.gap.is_none());
+        assert_eq!(found.condition, "idling");
+        // The operating speed breaks the 85 % rule, but nothing flutters.
+        assert_eq!(found.raised, DecidedSpeed::FirstCritical);
+        let [thickness] = found.changes.as_slice() else {
+            panic!("{:?}", found.changes);
+        };
+        let ratio = thickness.critical_rpm.unwrap() / critical.rpm.unwrap();
+        assert!((ratio / (3.0 / 2.8) - 1.0).abs() < 1e-4, "{ratio}");
+    }
+
+    /// The parts are those of the commands for each condition.
+    #[test]
+    fn a_saw_with_a_cut_is_reported_idling_and_in_the_cut() {
+        let found = reported(|file| file.measured = None);
+        let cut = found.in_cut.as_ref().unwrap();
+        let scene = |rpm: Option<f64>| {
+            let edited = Scene::paper().edited(|file| {
+                file.accuracy = Accuracy::Draft;
+                file.cut.as_mut().unwrap().chart_rpm = rpm;
+            });
+            Analysis::new(&edited.unwrap()).unwrap().report()
+        };
+        let operating = found.scene.operating_rpm;
+        assert_eq!(
+            found.idling.flutter_speed_rpm,
+            scene(None).flutter_speed_rpm
+        );
+        assert_eq!(cut.flutter_speed_rpm, scene(operating).flutter_speed_rpm);
+        let margins: Vec<f64> = found
+            .speeds
+            .iter()
+            .filter_map(|speed| speed.margin_rpm)
+            .collect();
+        assert_eq!(margins.len(), 4);
+        assert!((margins[3] - (cut.flutter_speed_rpm.unwrap() - operating.unwrap())).abs() < 1e-9);
+        // Both changes raise the flutter speed in the cut.
+        assert_eq!(
+            (found.raised, found.changes.len()),
+            (DecidedSpeed::Flutter, 2)
+        );
+        for change in &found.changes {
+            assert!(
+                change
+                    .flutter_rpm
+                    .is_none_or(|rpm| rpm > cut.flutter_speed_rpm.unwrap())
+            );
+        }
+    }
+}

@@ -1,0 +1,99 @@
+//! The text of a report for a decision.
+
+use super::{Change, DecisiveSpeed, DesignReport};
+use crate::analyses::campbell::{Report, answer, checks};
+use crate::analyses::{gap, response};
+use crate::model::scene::Quantity;
+use crate::page::outline::{Column, Outline, SPEED, Table, Value};
+use crate::page::text::shown;
+
+pub fn outline(report: &DesignReport) -> Outline {
+    let mut text = Outline::default();
+    let addressed = [&report.customer, &report.date];
+    let words: Vec<&str> = addressed
+        .into_iter()
+        .flatten()
+        .map(String::as_str)
+        .collect();
+    if !words.is_empty() {
+        text.sentence(words.join(", "));
+    }
+    text.remarks("Unusual number", &report.unusual_numbers);
+    for analysis in conditions(report) {
+        text.heading(&report.scene.name, &analysis.condition);
+        text.extend(answer(analysis));
+    }
+    text.sentence(response::verdict(&report.response));
+    text.table(speeds(report));
+    text.table(changes(report));
+    if let Some(gap) = &report.gap {
+        text.extend(gap::answer(gap));
+    }
+    for analysis in conditions(report) {
+        if report.in_cut.is_some() {
+            text.sentence(format!("Accuracy, {}:", analysis.condition));
+        }
+        checks(&mut text, analysis);
+    }
+    text.remarks("Warning", &report.warnings);
+    text
+}
+
+fn conditions(report: &DesignReport) -> impl Iterator<Item = &Report> {
+    [&report.idling].into_iter().chain(&report.in_cut)
+}
+
+/// The speeds that decide, their distance from the operating speed, and what tolerances take of it.
+fn speeds(report: &DesignReport) -> Table {
+    let columns = [
+        Column::words("speed"),
+        Column::words("condition"),
+        Column::of("value", &SPEED),
+        Column::of("above operating", &SPEED),
+        Column::of("tolerances", &SPEED),
+    ];
+    let rows = report.speeds.iter().map(|decisive: &DecisiveSpeed| {
+        let condition = decisive.condition.split(" at ").next().unwrap_or_default();
+        [
+            decisive.speed.name().into(),
+            condition.into(),
+            SPEED.fixed(0, decisive.rpm),
+            decisive
+                .margin_rpm
+                .map_or(Value::Missing, |rpm| format!("{rpm:+.0}").into()),
+            decisive
+                .tolerance_rpm
+                .map_or(Value::Missing, |rpm| format!("± {rpm:.0}").into()),
+        ]
+    });
+    Table::new(
+        "Margins, and what usual tolerances of production take of them",
+        columns,
+    )
+    .with_rows(rows)
+}
+
+/// The changes that raise the deciding speed most.
+fn changes(report: &DesignReport) -> Table {
+    let columns = [
+        Column::words("number"),
+        Column::words("from"),
+        Column::words("to"),
+        Column::of("critical", &SPEED),
+        Column::of("flutter", &SPEED),
+    ];
+    let rows = report.changes.iter().map(|change: &Change| {
+        let unit = Quantity::of(&change.path).map_or("", |quantity| quantity.unit);
+        let value =
+            |number: f64| Value::from(format!("{} {unit}", shown(number)).trim_end().to_owned());
+        [
+            change.path.clone().into(),
+            value(change.from),
+            value(change.to),
+            SPEED.fixed(0, change.critical_rpm),
+            SPEED.fixed(0, change.flutter_rpm),
+        ]
+    });
+    let title = format!("Changes that raise the {} most", report.raised.name());
+    Table::new(title, columns).with_rows(rows)
+}
