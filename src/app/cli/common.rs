@@ -29,8 +29,9 @@ pub struct Input {
 /// Changes of a scene by the command line.
 #[derive(Args, Default)]
 pub struct Changes {
-    /// Set a number of the scene by its path, in the unit of its key or with a unit, like
-    /// blade.thickness_m=2.6mm; may be given more than once
+    /// Set a key of the scene by its path: a number, in the unit of its key or with a unit, like
+    /// blade.thickness_m=2.6mm, or a word, like guides[0].contact=one_sided; may be given more
+    /// than once
     #[arg(long, value_name = "PATH=VALUE")]
     set: Vec<String>,
     /// Speed for accuracy; overrides the scene's

@@ -19,12 +19,13 @@ pub struct Page {
 }
 
 impl Page {
-    /// Refuses a page that cannot be written before the computation instead of after it.
+    /// Refuses a page that cannot be written before the computation instead of after it, and leaves nothing behind.
     pub fn tried(&self) -> anyhow::Result<()> {
-        match &self.report {
-            Some(path) => begun(path).map(drop),
-            None => Ok(()),
-        }
+        let Some(path) = &self.report else {
+            return Ok(());
+        };
+        let existing = folder(path).ancestors().find(|folder| folder.exists());
+        begun(path, existing.unwrap_or(Path::new("."))).map(drop)
     }
 
     /// Whether a page is requested.
@@ -38,7 +39,9 @@ impl Page {
             return Ok(());
         };
         let page = report.page()?;
-        let mut file = begun(path)?;
+        let folder = folder(path);
+        std::fs::create_dir_all(folder).with_context(|| cannot_write(path))?;
+        let mut file = begun(path, folder)?;
         let refused = || format!("cannot write {}", path.display());
         file.write_all(page.as_bytes()).with_context(refused)?;
         file.as_file().sync_all().with_context(refused)?;
@@ -49,22 +52,26 @@ impl Page {
     }
 }
 
-/// Creates a temporary file in the folder of the page, which later gets the name of the page.
-fn begun(path: &Path) -> anyhow::Result<tempfile::NamedTempFile> {
-    let folder = path
-        .parent()
-        .filter(|folder| !folder.as_os_str().is_empty())
-        .unwrap_or(Path::new("."));
-    let refused = || {
-        format!(
-            "cannot write the page {}; name a file in an existing folder with --report",
-            path.display()
-        )
-    };
+/// The folder of a page.
+fn folder(path: &Path) -> &Path {
+    let parent = path.parent();
+    let named = parent.filter(|folder| !folder.as_os_str().is_empty());
+    named.unwrap_or(Path::new("."))
+}
+
+fn cannot_write(path: &Path) -> String {
+    format!(
+        "cannot write the page {}; name another file with --report",
+        path.display()
+    )
+}
+
+/// Creates a temporary file in a folder, which later gets the name of the page.
+fn begun(path: &Path, folder: &Path) -> anyhow::Result<tempfile::NamedTempFile> {
     anyhow::ensure!(
         !path.is_dir(),
         "--report {} is a folder; name a file in it, like page.html",
         path.display()
     );
-    temporary_file(".tmp", folder).with_context(refused)
+    temporary_file(".tmp", folder).with_context(|| cannot_write(path))
 }

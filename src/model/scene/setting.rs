@@ -1,4 +1,4 @@
-//! A number of a scene as given on a command line: `blade.thickness_m=2.6mm`.
+//! A value of a scene as given on a command line: `blade.thickness_m=2.6mm`, `guides[0].contact=one_sided`.
 
 use std::str::FromStr;
 
@@ -6,14 +6,24 @@ use serde_json::{Map, Number, Value};
 
 use super::quantities::{QUANTITIES, general};
 use super::quantity::Quantity;
+use super::schema::{json_schema, keys};
 use super::unit::Unit;
 use super::{RefusedValue, Scene, SceneError, SceneFile};
 
-/// A value for the number of a scene at a path, in the unit of its key.
+/// A value for the key of a scene at a path.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Setting {
     path: String,
-    value: f64,
+    value: Given,
+}
+
+/// A given value.
+#[derive(Debug, Clone, PartialEq)]
+enum Given {
+    /// A number in the unit of the key.
+    Number(f64),
+    /// A word, such as `one_sided`.
+    Word(String),
 }
 
 /// Smallest Jaro–Winkler similarity of a known path that an error suggests.
@@ -22,10 +32,13 @@ const LIKENESS: f64 = 0.8;
 impl Setting {
     /// A setting from a value in the unit of the key.
     pub fn new(path: String, value: f64) -> Self {
-        Setting { path, value }
+        Setting {
+            path,
+            value: Given::Number(value),
+        }
     }
 
-    /// Path of the number.
+    /// Path of the key.
     #[cfg(feature = "cli")]
     pub(super) fn path(&self) -> &str {
         &self.path
@@ -35,7 +48,7 @@ impl Setting {
 impl FromStr for Setting {
     type Err = RefusedValue;
 
-    /// Parses a text like `guides[0].stiffness_n_per_m=20 kN/mm`.
+    /// Parses a text like `guides[0].stiffness_n_per_m=20 kN/mm` or `guides[0].contact=one_sided`.
     fn from_str(text: &str) -> Result<Self, RefusedValue> {
         let Some((name, number)) = text.split_once('=') else {
             let allowed = "a path, =, and a number with or without a unit";
@@ -48,9 +61,35 @@ impl FromStr for Setting {
             ));
         };
         let path = name.trim().to_owned();
+        if Quantity::of(&path).is_none() && takes_words(&path) {
+            let value = Given::Word(number.trim().to_owned());
+            return Ok(Setting { path, value });
+        }
         let value = number_of(&path, number)?;
-        Ok(Setting { path, value })
+        Ok(Setting::new(path, value))
     }
+}
+
+/// Whether the key at a path has one of several words as its value.
+fn takes_words(path: &str) -> bool {
+    let (schema, general) = (json_schema(), general(path));
+    keys(&schema)
+        .iter()
+        .any(|key| key.path == general && is_word(&schema, &key.pointer))
+}
+
+/// Whether the value at a pointer of a schema, or one of its alternatives, is a constant text.
+fn is_word(schema: &Value, pointer: &str) -> bool {
+    let node = schema.pointer(pointer).unwrap_or(&Value::Null);
+    if let Some(name) = node["$ref"].as_str() {
+        return is_word(schema, name.trim_start_matches('#'));
+    }
+    let variants = ["anyOf", "oneOf"].map(|word| node[word].as_array().map_or(0, Vec::len));
+    let mut all = ["anyOf", "oneOf"].into_iter().zip(variants);
+    let is_listed = |(word, count): (&str, usize)| {
+        (0..count).any(|k| is_word(schema, &format!("{pointer}/{word}/{k}")))
+    };
+    node["const"].is_string() || node["enum"].is_array() || all.any(is_listed)
 }
 
 /// Parses a number in the unit of a key: `2.6mm` for `blade.thickness_m` is 0.0026.
@@ -278,7 +317,7 @@ impl SceneFile {
     }
 }
 
-/// The scene of a JSON with other numbers.
+/// The scene of a JSON with other values.
 pub(super) fn set(mut json: Value, settings: &[Setting]) -> Result<Scene, SceneError> {
     for setting in settings {
         put(&mut json, setting)?;
@@ -301,9 +340,9 @@ pub(super) fn set(mut json: Value, settings: &[Setting]) -> Result<Scene, SceneE
     })
 }
 
-/// Writes a number at its path.
+/// Writes a value at its path.
 fn put(json: &mut Value, setting: &Setting) -> Result<(), RefusedValue> {
-    let number = number(setting)?;
+    let value = value(setting)?;
     let mut place = json;
     let mut reached = String::new();
     // `Quantity::of` has checked that the path consists of keys and indices.
@@ -334,19 +373,23 @@ fn put(json: &mut Value, setting: &Setting) -> Result<(), RefusedValue> {
         reached += if reached.is_empty() { "" } else { "." };
         reached += step;
     }
-    *place = Value::Number(number);
+    *place = value;
     Ok(())
 }
 
-/// Writes a whole number without a decimal point, which counts need and other numbers accept.
-fn number(setting: &Setting) -> Result<Number, RefusedValue> {
+/// The value as JSON; a whole number without a decimal point, which counts need and other numbers accept.
+fn value(setting: &Setting) -> Result<Value, RefusedValue> {
     const EXACT: f64 = 9e15;
-    let value = setting.value;
+    let value = match &setting.value {
+        Given::Number(value) => *value,
+        Given::Word(word) => return Ok(Value::from(word.as_str())),
+    };
     if value.fract() == 0.0 && (0.0..EXACT).contains(&value) {
-        return Ok(Number::from(value as u64));
+        return Ok(Value::from(value as u64));
     }
-    Number::from_f64(value)
-        .ok_or_else(|| RefusedValue::new(&setting.path, value, "finite", "give a number"))
+    let number = Number::from_f64(value)
+        .ok_or_else(|| RefusedValue::new(&setting.path, value, "finite", "give a number"))?;
+    Ok(Value::Number(number))
 }
 
 fn no_entry(path: &str, list: &str, count: usize) -> RefusedValue {
@@ -367,7 +410,7 @@ fn no_entry(path: &str, list: &str, count: usize) -> RefusedValue {
 
 #[cfg(test)]
 mod tests {
-    use super::super::DampingFile;
+    use super::super::{ContactLaw, DampingFile};
     use super::*;
 
     fn set(texts: &[&str]) -> Result<Scene, String> {
@@ -378,6 +421,24 @@ mod tests {
             .map_err(|error| error.to_string())?;
         let set = Scene::paper().file().set(&settings);
         set.map_err(|error| error.to_string())
+    }
+
+    /// Words are those of the scene; another one is refused with all that are allowed.
+    #[test]
+    fn a_key_with_words_takes_one_of_them() {
+        let words = set(&["guides[0].contact=one_sided", "guides[0].gap_m=0.05mm"]).unwrap();
+        let typed = Scene::paper().edited(|file| {
+            file.guides[0].contact = ContactLaw::OneSided;
+            file.guides[0].gap_m = Some(5e-5);
+        });
+        assert_eq!(words.file(), typed.unwrap().file());
+        let refused = set(&["guides[0].contact=onesided"]).unwrap_err();
+        assert!(
+            refused.contains("one_sided") && refused.contains("onesided"),
+            "{refused}"
+        );
+        let refused = set(&["blade.thicknes_m=thin"]).unwrap_err();
+        assert!(refused.contains("perhaps blade.thickness_m"), "{refused}");
     }
 
     /// The result equals a scene with these numbers typed in the units of their keys.
