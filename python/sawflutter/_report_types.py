@@ -284,6 +284,8 @@ class Operating(Entry):
     within_limit : Whether the ratio is at most the limit; null without a ratio.
     verdict : Whether the saw is stable at that speed.
     inside_instability : Index into `instabilities` of the band that makes it unstable.
+    undecided_edge_rpm : Speed at which a band begins or ends, if it is so close to the
+        operating speed that its estimated error leaves open on which side that is; else null.
     at_critical_rpm : Critical speed within 5 % of the operating speed; null if there is none.
     side_force_factor : Deflection of the rim at the cut under a constant side force there,
         relative to that at rest; negative if the blade moves against the force. Null unless the
@@ -304,6 +306,7 @@ class Operating(Entry):
     within_limit: bool | None
     verdict: StabilityState
     inside_instability: int | None
+    undecided_edge_rpm: float | None = field(default=None)
     at_critical_rpm: float | None = field(default=None)
     side_force_factor: float | None = field(default=None)
     safe_window_rpm: FloatArray | None

@@ -43,6 +43,7 @@ mod sensitivity;
 #[cfg(test)]
 mod tuned_tests;
 mod undamped;
+mod undecided;
 mod verdict;
 
 pub use analysis::Analysis;
@@ -79,5 +80,6 @@ pub use sensitivity::{Sensitivity, SensitivityError};
 pub(crate) use undamped::Depth;
 #[doc(hidden)]
 pub use undamped::undamped_bands;
+pub(crate) use undecided::UndecidedEdge;
 pub(crate) use verdict::{CRITICAL_MARGIN, critical_at, flutter_onsets};
 pub use verdict::{Evidence, StabilityState, Verdict};

@@ -94,6 +94,10 @@ pub struct OperatingPoint {
     pub verdict: StabilityState,
     /// Index into `instabilities` of the band that makes it unstable.
     pub inside_instability: Option<usize>,
+    /// Speed at which a band begins or ends, if it is so close to the operating speed that its estimated error leaves open on which side
+    /// that is; else null.
+    #[serde(default)]
+    pub undecided_edge_rpm: Option<f64>,
     /// Critical speed within 5 % of the operating speed; null if there is none.
     #[serde(default)]
     pub at_critical_rpm: Option<f64>,

@@ -8,7 +8,12 @@ use crate::model::scene::{Polar, Scene, rpm};
 use crate::motion::stretched_blade::Rise;
 use crate::motion::transient::at_point;
 use crate::page::text::{shown, shown_to};
-use crate::stability::{Analysis, Evidence, Instability, InstabilityKind, flutter_onsets};
+use crate::stability::{
+    Analysis, Evidence, Instability, InstabilityKind, UndecidedEdge, flutter_onsets,
+};
+
+/// Key of the criterion of stability at the operating speed.
+const OPERATING: &str = "operating";
 
 impl Limits {
     /// Evaluates every limit on critical speeds and bands.
@@ -68,6 +73,27 @@ impl Limits {
         }
     }
 
+    /// Fails the criterion of stability at the operating speed, because the error of the edge of a band decides it.
+    pub(super) fn leave_open(
+        &self,
+        criteria: &mut [Criterion],
+        found: UndecidedEdge,
+        remedy: &str,
+    ) {
+        let operation = criteria
+            .iter_mut()
+            .find(|criterion| criterion.key == OPERATING);
+        if let Some(criterion) = operation {
+            criterion.passed = false;
+            criterion.finding = format!(
+                "too close to call at {} rpm: the edge of a band, {:.2} rpm, has an estimated error of {:.2} rpm; {remedy}",
+                typed_rpm(self.operating_rad_per_s),
+                rpm(found.edge_rad_per_s),
+                rpm(found.error_rad_per_s)
+            );
+        }
+    }
+
     /// Criterion of stability at the operating speed.
     fn of_operation(&self, found: &Evidence<'_>) -> Criterion {
         let operating = self.operating_rad_per_s;
@@ -78,7 +104,7 @@ impl Limits {
         });
         let operating_rpm = typed_rpm(operating);
         Criterion {
-            key: "operating".to_owned(),
+            key: OPERATING.to_owned(),
             name: "stability at the operating speed".to_owned(),
             finding: match (kind, verdict.stretch) {
                 (Some(kind), Some(range)) => {

@@ -24,7 +24,7 @@ mod static_deflection;
 
 use faer::Scale;
 
-use crate::analyses::campbell::{InstabilityBand, Numbered, add_amplitudes, lifting_off};
+use crate::analyses::campbell::{InstabilityBand, Numbered, add_amplitudes, lifting_off, sharper};
 use crate::analyses::deflect::compliance_m_per_n;
 use crate::model::scene::{Polar, Scene, SceneError, SpeedRange, rpm};
 use crate::modes::SpectrumError;
@@ -80,6 +80,9 @@ pub fn check(scene: &Scene, limits: &Limits) -> Result<CheckReport, CheckError> 
     let bending =
         lowest_critical.and_then(|critical| StaticDeflection::new(plate, angle, lateral, critical));
     let mut criteria = limits.criteria(&analysis.evidence(&critical));
+    if let Some(edge) = analysis.undecided(operating) {
+        limits.leave_open(&mut criteria, edge, sharper(scene.accuracy()));
+    }
     criteria.push(limits.of_rim(plate.blade.outer_radius_m));
     let of_gaps = of_gaps(scene, plate, bending.as_ref(), operating);
     let warnings = warnings(analysis, limits, of_gaps.len());

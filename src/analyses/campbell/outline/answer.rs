@@ -4,6 +4,7 @@ use super::is_damped;
 use crate::analyses::campbell::{
     InstabilityBand, InstabilityKind, OperatingPoint, Report, StabilityState, side_force_in_words,
 };
+use crate::model::scene::Accuracy;
 use crate::page::outline::{Outline, SPEED};
 use crate::page::text::shown_to;
 use crate::stability::CRITICAL_MARGIN;
@@ -23,6 +24,8 @@ pub enum Answer {
     Divergence,
     /// The saw flutters.
     Flutter,
+    /// The estimated error of the edge of a band leaves open whether the saw is stable.
+    TooClose,
     /// The sweep does not include the operating speed.
     OutsideSweep,
 }
@@ -30,6 +33,9 @@ pub enum Answer {
 impl Answer {
     /// Derives the answer from the verdict at the operating speed.
     pub fn new(operating: &OperatingPoint) -> Self {
+        if operating.undecided_edge_rpm.is_some() {
+            return Answer::TooClose;
+        }
         match operating.verdict {
             StabilityState::Divergence => Answer::Divergence,
             StabilityState::Flutter => Answer::Flutter,
@@ -48,6 +54,7 @@ impl Answer {
             Answer::AtCritical => "at critical",
             Answer::Divergence => "divergence",
             Answer::Flutter => "flutter",
+            Answer::TooClose => "too close",
             Answer::OutsideSweep => "outside sweep",
         }
     }
@@ -59,6 +66,7 @@ impl Answer {
             Answer::AtCritical => "STABLE, but within 5 % of a critical speed",
             Answer::Divergence => "NO, UNSTABLE: divergence",
             Answer::Flutter => "NO, UNSTABLE: flutter",
+            Answer::TooClose => "TOO CLOSE TO CALL",
             Answer::OutsideSweep => "UNKNOWN: outside the sweep",
         }
     }
@@ -83,6 +91,9 @@ pub fn headline(operating: &OperatingPoint) -> String {
 
 fn at_operating_speed(text: &mut Outline, report: &Report, operating: &OperatingPoint) {
     text.headline(headline(operating));
+    if let Some(words) = undecided(report, operating) {
+        text.reason(words);
+    }
     let around = operating.inside_instability;
     let band = around.and_then(|index| report.instabilities.get(index));
     if let Some(band) = band {
@@ -118,6 +129,7 @@ pub fn deciding(report: &Report, operating: &OperatingPoint) -> Option<String> {
             let index = operating.inside_instability?;
             report.instabilities.get(index).map(inside)
         }
+        Answer::TooClose => undecided(report, operating),
         Answer::OutsideSweep => Some(WIDEN.to_owned()),
         Answer::AtCritical => at_critical_speed(report, operating),
         Answer::PastRule | Answer::Runs => rule(operating).or_else(|| usable(report, operating)),
@@ -142,6 +154,24 @@ fn inside(band: &InstabilityBand) -> String {
         "inside the band of {} from {:.1} to {:.1} rpm{waves}",
         band.kind, band.from_rpm, band.to_rpm
     )
+}
+
+/// Names the edge of a band whose error leaves the answer open, and the remedy.
+fn undecided(report: &Report, operating: &OperatingPoint) -> Option<String> {
+    let edge = operating.undecided_edge_rpm?;
+    Some(format!(
+        "the edge of a band, {edge:.2} rpm, is closer than its estimated error; {}",
+        sharper(report.accuracy.name)
+    ))
+}
+
+/// The remedy for a result that is not accurate enough.
+pub fn sharper(accuracy: Accuracy) -> &'static str {
+    match accuracy {
+        Accuracy::Draft => "use --accuracy design",
+        Accuracy::Design => "use --accuracy reference",
+        Accuracy::Reference => "give a smaller --tolerance",
+    }
 }
 
 /// Describes the motion with the largest growth rate, in 1/s, at the operating speed, which may be inside a band.
