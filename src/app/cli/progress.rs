@@ -1,7 +1,8 @@
-//! A bar on the terminal while a command computes.
+//! A bar on the terminal while a command computes, or a line now and then where the error stream is no terminal.
 
 use std::io::IsTerminal;
-use std::time::Duration;
+use std::sync::{Mutex, PoisonError};
+use std::time::{Duration, Instant};
 
 use crate::modes::{Progress, Stage};
 use indicatif::{ProgressBar, ProgressStyle};
@@ -9,8 +10,11 @@ use indicatif::{ProgressBar, ProgressStyle};
 /// Interval between updates of the bar, which shows that the program is running.
 const TICK: Duration = Duration::from_millis(200);
 
-/// Runs work with a progress bar on the error stream, and without a bar if that is not a terminal. The work
-/// reports the progress of its own loops by [`Progress::show`].
+/// Interval between lines, in the log of a job or of a test.
+const BETWEEN_LINES: Duration = Duration::from_secs(30);
+
+/// Runs work with a progress bar on the error stream, or with a line every half a minute if that is not a terminal. The
+/// work reports the progress of its own loops by [`Progress::show`].
 pub fn watched<T: Send>(work: impl FnOnce(&Progress) -> T + Send) -> anyhow::Result<T> {
     watched_with_remarks(|progress, _| work(progress))
 }
@@ -20,7 +24,14 @@ pub fn watched_with_remarks<T: Send>(
     work: impl FnOnce(&Progress, &(dyn Fn(&str) + Sync)) -> T + Send,
 ) -> anyhow::Result<T> {
     if !std::io::stderr().is_terminal() {
-        return Ok(work(&Progress::default(), &|line| eprintln!("{line}")));
+        let lines = Lines::new(BETWEEN_LINES);
+        let progress = Progress::new(move |stage| {
+            if let Some(line) = lines.due(stage) {
+                eprintln!("{line}");
+            }
+        });
+        let found = progress.watched(|| work(&progress, &|line| eprintln!("{line}")));
+        return Ok(found?);
     }
     let style = ProgressStyle::with_template("{bar:20} {msg}, {elapsed}");
     let bar =
@@ -33,6 +44,35 @@ pub fn watched_with_remarks<T: Send>(
     let found = progress.watched(|| work(&progress, &remark));
     bar.finish_and_clear();
     Ok(found?)
+}
+
+/// Lines with the progress at intervals.
+struct Lines {
+    begun: Instant,
+    interval: Duration,
+    last: Mutex<Instant>,
+}
+
+impl Lines {
+    fn new(interval: Duration) -> Self {
+        let begun = Instant::now();
+        Lines {
+            begun,
+            interval,
+            last: Mutex::new(begun),
+        }
+    }
+
+    /// The line of a stage, if the last one is an interval ago.
+    fn due(&self, stage: Stage) -> Option<String> {
+        let mut last = self.last.lock().unwrap_or_else(PoisonError::into_inner);
+        if last.elapsed() < self.interval {
+            return None;
+        }
+        *last = Instant::now();
+        let seconds = self.begun.elapsed().as_secs();
+        Some(format!("{}, {seconds} s", in_words(stage)))
+    }
 }
 
 fn show(bar: &ProgressBar, stage: Stage) {
@@ -63,6 +103,20 @@ fn in_words(stage: Stage) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn a_line_is_due_once_in_an_interval() {
+        let stage = Stage {
+            what: "saws",
+            done: 3,
+            of: 64,
+            eigenproblems: 200,
+        };
+        let always = Lines::new(Duration::ZERO);
+        let line = always.due(stage);
+        assert_eq!(line.as_deref(), Some("3/64 saws, 200 eigenproblems, 0 s"));
+        assert_eq!(Lines::new(BETWEEN_LINES).due(stage), None);
+    }
 
     #[test]
     fn a_bar_says_what_is_being_done_between_two_steps_too() {
