@@ -11,6 +11,9 @@ pub fn outline(report: &PlaceReport) -> Outline {
         &report.condition,
         &report.unusual_numbers,
     );
+    if let Some(missed) = report.limits_missed() {
+        text.headline(missed);
+    }
     let goal = match report.goal {
         Goal::FlutterSpeed => "flutter speed",
         Goal::StableWindow => "stable window",

@@ -229,9 +229,6 @@ impl PlaceReport {
                 self.to_rpm
             ));
         }
-        if !self.kept {
-            remarks.push(self.limits_missed());
-        }
         if self.failed_saws > 0 {
             remarks.push(format!(
                 "{} of the {} saws tried could not be computed and count as the worst; the reason of one of them: {}",
@@ -248,8 +245,11 @@ impl PlaceReport {
         remarks
     }
 
-    /// Message that no saw keeps the limits and that this one misses them by the smallest amount.
-    fn limits_missed(&self) -> String {
+    /// Message that no saw keeps the limits, and by how much the one that misses them least does; `None` if the limits are kept.
+    pub(super) fn limits_missed(&self) -> Option<String> {
+        if self.kept {
+            return None;
+        }
         let worst = self
             .worst_neighbour
             .as_ref()
@@ -257,7 +257,7 @@ impl PlaceReport {
         let critical = worst.and_then(|worst| worst.critical_rpm);
         let short = self.min_critical_rpm.zip(critical).filter(|(asked, found)| found < asked).map(|(asked, found)| {
             format!(
-                "no saw tried keeps the limit of the critical speed in the worst case of its tolerances; this one misses it by the smallest amount, {:.0} rpm",
+                "NO saw tried keeps the limit of the critical speed in the worst case of its tolerances; this one misses it by the smallest amount, {:.0} rpm",
                 asked - found
             )
         });
@@ -268,11 +268,11 @@ impl PlaceReport {
                 format!("{} mm", shown_to(3, 1e3 * m))
             });
             format!(
-                "no saw tried keeps the limit of the deflection at the cut in the worst case of its tolerances; this one deflects there by {found}"
+                "NO saw tried keeps the limit of the deflection at the cut in the worst case of its tolerances; this one deflects there by {found}"
             )
         });
         let both: Vec<String> = short.into_iter().chain(beyond).collect();
-        both.join("; ")
+        Some(both.join("; "))
     }
 
     fn not_improved(&self) -> &'static str {

@@ -234,21 +234,25 @@ impl Output {
         report.text(self.details)
     }
 
-    /// Writes the page of a report, its figures, the `others` and the report itself, and prints the report.
+    /// Writes the page of a report, its figures, the `others` and the report itself, and prints the report. An other file without a content
+    /// is removed if an earlier run wrote it.
     pub fn report<R: CommandReport + Serialize>(
         &self,
         folder: &OutputFolder,
         page: &Page,
         report: &R,
-        others: Vec<NamedFile>,
+        others: Vec<(&'static str, Option<Vec<u8>>)>,
     ) -> anyhow::Result<()> {
         let command = report.command();
         page.write(report)?;
         let json = serde_json::to_string_pretty(report)?;
         let mut files = drawn(report, self.details)?;
-        files.extend(others);
+        let mut optional = command.figures.concat();
+        for (name, content) in others {
+            optional.push(name);
+            files.extend(content.map(|content| (name, content)));
+        }
         files.push((command.file, json.clone().into_bytes()));
-        let optional = command.figures.concat();
         self.print(folder, &files, &optional, &json, || self.words(report))
     }
 

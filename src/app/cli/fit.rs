@@ -78,7 +78,7 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<()> {
         fit(&scene, &measurement, &freed, &options, &starts)
     })??;
     let fitted = serde_json::to_string_pretty(&report.scene)?;
-    let others = vec![("fitted-scene.json", fitted.into_bytes())];
+    let others = vec![("fitted-scene.json", Some(fitted.into_bytes()))];
     let output = &arguments.common.output;
     output.report(&folder, &arguments.page, &report, others)
 }

@@ -18,7 +18,8 @@ Examples:
     --free \"guides[0].angle_deg=-90..-20\" --min-critical-rpm 1500
   sawflutter place --goal window # widest window around operating_rpm
   sawflutter place --radius-tolerance-m 0.0005 --angle-tolerance-deg 0.2
-The best saw is placed-scene.json; try it with `check` and `cut`.
+The best saw is placed-scene.json; try it with `check` and `cut`. Without a saw
+that keeps the limits none is written.
 
 Every saw counts as the worst of those whose numbers are off by the tolerances
 of production, by default 2 mm of a radius, 1 degree of an angle, 10 % of a
@@ -114,8 +115,11 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<bool> {
         let steps = |what, done, of| progress.show(what, done, of);
         place(&scene, &freed, &demands, &options, &steps)
     })??;
-    let placed = serde_json::to_string_pretty(&report.scene)?;
-    let others = vec![("placed-scene.json", placed.into_bytes())];
+    // A saw that misses a limit is no result to go on with.
+    let placed = report
+        .kept
+        .then(|| serde_json::to_vec_pretty(&report.scene));
+    let others = vec![("placed-scene.json", placed.transpose()?)];
     let output = &arguments.common.output;
     output.report(&folder, &arguments.page, &report, others)?;
     Ok(report.kept)

@@ -46,6 +46,6 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<()> {
         &folder,
         &Page::default(),
         &report,
-        vec![("report.html", page)],
+        vec![("report.html", Some(page))],
     )
 }
