@@ -271,12 +271,13 @@ def test_bad_files_are_refused_with_a_remedy(
 
 def test_rounded_times_are_even_and_missing_samples_are_not(tmp_path: Path) -> None:
     time = np.arange(400) / 420.0
-    rounded = tmp_path / "rounded.csv"
-    np.savetxt(rounded, np.column_stack([time, time]), fmt="%.3f", delimiter=",", header="t,x", comments="")
+    rounded, probe = tmp_path / "rounded.csv", np.sin(40.0 * time)
+    np.savetxt(rounded, np.column_stack([time, probe]), fmt="%.3f", delimiter=",", header="t,x", comments="")
     assert abs(sf.read_record(rounded, rpm=0).rate_hz - 420.0) < 0.6
+    assert sf.read_record(rounded, rpm=0, rate_hz=420).rate_hz == 420.0
     for gone in (10, 200, 390):
         path = tmp_path / "gap.csv"
-        table = np.delete(np.column_stack([time, time]), gone, axis=0)
+        table = np.delete(np.column_stack([time, probe]), gone, axis=0)
         np.savetxt(path, table, delimiter=",", header="t,x", comments="")
         with pytest.raises(sf.InputError, match="not evenly spaced"):
             sf.read_record(path, rpm=0)
