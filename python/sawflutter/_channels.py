@@ -95,7 +95,7 @@ class Channels:
     def named(self, argument: str, key: str | int) -> Channel:
         """A channel by its name, or by its number from 0."""
         names = [channel.name for channel in self.channels]
-        if isinstance(key, str) and key in names:
+        if isinstance(key, str) and names.count(key) == 1:
             return self.channels[names.index(key)]
         if not isinstance(key, (str, bool)) and 0 <= key < len(names):
             return self.channels[key]
@@ -106,8 +106,8 @@ class Channels:
         """The sample rate of the file, or the given one, which must agree with it."""
         if given is None and self.rate_hz is None:
             remedy = (
-                f"give the samples per second, because {self.file} has no column of time; "
-                "or name this column time_s in the line above the numbers"
+                f"{self.file} has no column of time: give the samples per second, or name this column "
+                "time_s in the line above the numbers"
             )
             raise refused("rate_hz", None, "above 0", remedy)
         if given is None or self.rate_hz is None:

@@ -20,17 +20,17 @@ T = TypeVar("T")
 
 def read(path: str | os.PathLike[str]) -> Channels:
     """The channels of a file."""
-    return _by_ending(path, {"wav": _wav, "csv": _tables.read, "uff": _universal.read})(path)
+    return _by_ending(path, {"wav": _wav, "csv": _tables.read, "uff": _universal.read})
 
 
 def read_responses(path: str | os.PathLike[str]) -> list[ResponseFunction]:
     """The frequency responses of a file."""
-    return _by_ending(path, {"csv": _tables.read_response, "uff": _universal.read_responses})(path)
+    return _by_ending(path, {"csv": _tables.read_response, "uff": _universal.read_responses})
 
 
 def _by_ending(
     path: str | os.PathLike[str], readers: dict[str, Callable[[str | os.PathLike[str]], T]]
-) -> Callable[[str | os.PathLike[str]], T]:
+) -> T:
     ending = Path(path).suffix.lower().lstrip(".")
     same = {"wave": "wav", "txt": "csv", "tsv": "csv", "dat": "csv", "lvm": "csv", "unv": "uff", "uf": "uff"}
     kind = same.get(ending, ending)
@@ -41,7 +41,9 @@ def _by_ending(
             f"the name of {path} ends in {Path(path).suffix!r}, but must end in one of {allowed}; "
             "rename the file, or export it in one of these formats"
         )
-    return readers[kind]
+    # Numbers that are not finite are refused with the record or the frequency response.
+    with np.errstate(over="ignore", invalid="ignore"):
+        return readers[kind](path)
 
 
 def _wav(path: str | os.PathLike[str]) -> Channels:

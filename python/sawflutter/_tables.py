@@ -101,8 +101,8 @@ def read_response(path: str | os.PathLike[str]) -> list[ResponseFunction]:
             "frequency_hz, magnitude, phase_deg; name them so in a line above the numbers, and remove others"
         )
     axis = found["frequency"]
-    if not axis.unit and axis.name.lower() in ("omega", "ω"):
-        raise InputError(f"the column {axis.name} of {path} has no unit; name it with one: omega [rad/s]")
+    if not axis.unit and not {"omega", "ω", "khz", "rpm", "rad"}.isdisjoint(_words(axis.name)):
+        raise InputError(f"the column {axis.name} of {path} has no unit; name it with one: f_hz, omega [rad/s]")
     frequency_hz = axis.samples * known_factor(HERTZ, axis.unit or "Hz", f"frequencies of {path}")
     if is_polar:
         size, unit = magnitude(path, found["magnitude"])

@@ -21,9 +21,11 @@ _TIME, _FREQUENCY, _OF_RPM = 17, 18, 19
 _IEEE = 2
 # Types of ordinates: real and complex, in single and double precision.
 _SINGLE, _COMPLEX, _TYPES = (2, 5), (5, 6), (2, 4, 5, 6)
-_BEGIN = re.compile(rb"^ *-1[ \r]*\n *58(?:b(?P<binary>[^\n]*)|[ \r][^\n]*)?\n", re.MULTILINE)
+_BEGIN = re.compile(rb"^ *-1[ \r]*\n *58(?:[bB](?P<binary>[^\n]*)|[ \r][^\n]*)?\n", re.MULTILINE)
 _END = re.compile(rb"^ *-1[ \r]*$", re.MULTILINE)
 _LINES_OF_HEADER, _LONGEST_HEADER = 11, 4096
+# Line with the type of the ordinates, the number of samples, and the abscissas.
+_OF_ABSCISSA = 6
 # A number in text; Fortran writes exponents with D, and those of three digits without a letter.
 _NUMBER = re.compile(r"([-+]?(?:\d+\.?\d*|\.\d+))(?:[EeDd]?([-+]\d+)|[EeDd](\d+))?")
 # Most numbers of a line of text, which fillers complete.
@@ -78,11 +80,11 @@ def _sets(
 ) -> list[_Set]:
     """The data sets 58 of some types of function."""
     sets = list[_Set]()
-    for number, (header, body, binary) in enumerate(_blocks(Path(path).read_bytes())):
-        try:
+    try:
+        for header, body, binary in _blocks(Path(path).read_bytes().removeprefix(b"\xef\xbb\xbf")):
             sets.append(_set(header, body, binary))
-        except (ValueError, IndexError) as error:
-            raise InputError(f"data set 58 number {number + 1} of {path} cannot be read: {error}") from None
+    except ValueError as error:
+        raise InputError(f"data set 58 number {len(sets) + 1} of {path} cannot be read: {error}") from None
     found = [of for of in sets if of.kind in kinds and of.kind_of_abscissa in (0, 1, abscissa)]
     if not found:
         others = ", ".join(sorted({f"{of.kind} over {of.kind_of_abscissa}" for of in sets})) or "no data set 58"
@@ -100,7 +102,10 @@ def _blocks(content: bytes) -> Iterator[tuple[list[str], bytes, list[int]]]:
         near = content[begin.end() : begin.end() + _LONGEST_HEADER]
         *lines, rest = near.split(b"\n", _LINES_OF_HEADER)
         at = begin.end() + len(near) - len(rest)
-        binary = [int(field) for field in (begin["binary"] or b"").split()]
+        fields = (begin["binary"] or b"").split()
+        binary = [int(field) for field in fields if field.isdigit()]
+        if fields and (len(binary) < len(fields) or len(fields) < 4):
+            raise ValueError("its first line has not the fields of a binary data set; export it as text")
         end = _END.search(content, at)
         size = binary[3] if binary else (end.start() if end else len(content)) - at
         try:
@@ -114,11 +119,10 @@ def _blocks(content: bytes) -> Iterator[tuple[list[str], bytes, list[int]]]:
 def _set(header: list[str], body: bytes, binary: list[int]) -> _Set:
     if len(header) < _LINES_OF_HEADER:
         raise ValueError("its header is not complete; export it again")
-    kind, count, even = int(header[5][:5]), int(header[6][10:20]), int(header[6][20:30])
-    kind_of_ordinate = int(header[6][:10])
+    kind_of_ordinate, count, even = (_whole(header, _OF_ABSCISSA, begin, begin + 10) for begin in (0, 10, 20))
     if kind_of_ordinate not in _TYPES:
         raise ValueError(f"its type of ordinate is {kind_of_ordinate}, but must be one of {_TYPES}; export it again")
-    first, step, z = (_number(header[6][begin : begin + 13]) for begin in (30, 43, 56))
+    first, step, z = (_real(header, begin) for begin in (30, 43, 56))
     parts = 2 if kind_of_ordinate in _COMPLEX else 1
     columns = parts if even else 1 + parts
     if binary:
@@ -140,20 +144,20 @@ def _set(header: list[str], body: bytes, binary: list[int]) -> _Set:
     values = rows[:count]
     above, below = (_label(line[46:]) for line in (header[8], header[9]))
     return _Set(
-        kind,
+        _whole(header, 5, 0, 5),
         next(filter(None, map(_label, (header[0], header[1], header[3], header[4]))), ""),
         f"{above}/{below}" if above and below else above,
-        int(header[7][:10] or 0),
+        _whole(header, 7, 0, 10),
         _label(header[7][46:]),
         np.asarray(first + step * np.arange(count) if even else values[:, 0]),
         values[:, -2] + 1j * values[:, -1] if parts == 2 else values[:, -1],
-        z if int(header[10][:10] or 0) == _OF_RPM else None,
+        z if _whole(header, 10, 0, 10) == _OF_RPM else None,
     )
 
 
 def _of_text(text: str) -> FloatArray:
     if foreign := _NUMBER.sub(" ", text).split():
-        raise ValueError(f"it has {foreign[0]!r} in the place of a number; export it again")
+        raise ValueError(f"it has {foreign[0]!r} instead of a number; export it again")
     return np.array([float(f"{of[1]}E{of[2] or of[3] or 0}") for of in _NUMBER.finditer(text)])
 
 
@@ -169,8 +173,21 @@ def _of_binary(body: bytes, fields: list[int], count: int, precision: int, parts
     return np.column_stack([rows[name].astype(float) for name in row.names or ()])
 
 
-def _number(text: str) -> float:
-    return float(text.replace("D", "E").replace("d", "e")) if text.strip() else 0.0
+def _whole(header: list[str], line: int, begin: int, end: int) -> int:
+    """A whole number of the header, which is 0 if it is blank."""
+    text = header[line][begin:end].strip()
+    if not re.fullmatch(r"[-+]?\d*", text):
+        raise ValueError(
+            f"line {line + 1} below the 58 must have a whole number in the columns {begin + 1} to {end} (you gave "
+            f"{text!r}); export it again"
+        )
+    return int(text or 0)
+
+
+def _real(header: list[str], begin: int) -> float:
+    """A number of the line with the abscissas, which is 0 if it is blank."""
+    text = header[_OF_ABSCISSA][begin : begin + 13]
+    return float(_of_text(text)[0]) if text.strip() else 0.0
 
 
 def _label(text: str) -> str:

@@ -108,6 +108,8 @@ def read_frf(
     speed = given if given is not None else of.rpm or 0.0
     if not speed >= 0.0:
         raise refused("rpm", speed, "0 or more", "give the rotation speed in rpm")
+    if not (np.isfinite(of.frequency_hz).all() and np.isfinite(of.response).all()):
+        raise InputError(f"{path} has numbers that are not finite; remove these frequencies")
     steps = np.diff(of.frequency_hz)
     step = even_step(of.frequency_hz)
     if len(steps) < _FEWEST or step is None:

@@ -97,7 +97,7 @@ def test_a_labview_file_is_read_with_and_without_abscissas(tmp_path: Path, colum
     lines = ["LabVIEW Measurement\t", *map("\t".join, general.items()), "***End_of_Header***\t", "\t"]
     lines += [*map("\t".join, fields.items()), "***End_of_Header***\t\t"]
     between = "\tX_Value\t" if columns == "Multi" else "\t"
-    lines.append(f"X_Value\tprobe{between}Drehzahl\tComment")
+    lines.append(f"X_Value\tprobe (Trigger){between}Drehzahl\tComment")
     for time, *values in zip(TIME, PROBE, SPEED):
         x = "" if columns == "No" else f"{time:.6f}"
         lines.append(f"{x}\t" + (f"\t{x}\t" if columns == "Multi" else "\t").join(f"{y:.6f}" for y in values))
@@ -282,7 +282,7 @@ def test_a_universal_file_with_fewer_samples_than_stated_is_refused(tmp_path: Pa
     for changed, said in (
         (universal(PROBE, step=2e-3, unit="s", stated=40), "states 40 samples, but has 66"),
         (universal(PROBE, step=2e-3, unit="foo"), "times of .* are in 'foo'"),
-        (text.replace(f"{PROBE[9]:13.5E}", f"{'*' * 13}"), r"has '\*+' in the place of a number"),
+        (text.replace(f"{PROBE[9]:13.5E}", f"{'*' * 13}"), r"has '\*+' instead of a number"),
         (universal(PROBE, step=2e-3, unit="Hz", kind=0), "no time history .*0 over 18"),
     ):
         path.write_text(changed)

@@ -247,6 +247,7 @@ def test_the_chart_shows_spectra_branches_orders_and_peaks(report: sf.CampbellRe
         ("a.csv", "t,x\n0,1\n1,2\n", {"rpm": "n"}, "named by speed or tacho"),
         ("a.csv", "t,y,x\n0,1,0\n1,2,1\n", {"tacho": "x", "pulses_per_turn": 0}, "at least 1"),
         ("a.csv", "t,x\n0,1\n1,2\n", {"rpm": 0, "signal": "y"}, r"it has 0 \(x\)"),
+        ("a.csv", "t,x,x\n0,1,2\n1,2,4\n", {"rpm": 0, "signal": "x"}, r"it has 0 \(x\), 1 \(x\)"),
         ("a.csv", "t,x\n0,1\n1,2\n", {"rpm": 0, "speed": 0}, "one source"),
         ("a.csv", "t,x,k\n0,1,0\n1,2,1\n", {"tacho": "k"}, "tacho must be .*you gave '1 pulses'"),
         ("a.csv", "t,x\n0,1\n1,2\n", {"rpm": 0, "rate_hz": 9}, "leave it out"),

@@ -54,18 +54,17 @@ pub fn number_columns(text: &str) -> Result<Vec<NumberColumn>, FitError> {
     let width = first.cells.len().max(titles.names.len());
     let mut columns: Vec<(usize, NumberColumn)> = Vec::new();
     for place in 0..width {
-        let (name, unit) = titles.of_column(place);
+        let title = titles.of_column(place);
         let is_blank = |row: &Record| row.cells.get(place).is_none_or(String::is_empty);
-        if is_remark(&name) || rows.iter().all(is_blank) {
+        if is_remark(&title) || rows.iter().all(is_blank) {
             continue;
         }
         let of_header = labview
             .as_ref()
-            .map_or("", |header| header.unit(&name, place));
-        let unit = if unit.is_empty() {
-            of_header.to_owned()
-        } else {
-            unit
+            .and_then(|header| header.unit(&title, place));
+        let (name, unit) = match of_header {
+            Some(unit) => (title, unit.to_owned()),
+            None => titles.split(place),
         };
         let numbers = Vec::with_capacity(rows.len());
         columns.push((
@@ -77,13 +76,12 @@ pub fn number_columns(text: &str) -> Result<Vec<NumberColumn>, FitError> {
             },
         ));
     }
-    let mut columns = read_rows(&rows, columns, width)?;
-    if let Some(header) = labview
-        && let Some(abscissa) = header.abscissa(&columns)?
-    {
-        columns.insert(0, abscissa);
-    }
-    Ok(columns)
+    let abscissas = match &labview {
+        Some(header) => header.abscissas(&columns, rows.len())?,
+        None => None,
+    };
+    let columns = read_rows(&rows, columns, width)?;
+    Ok(abscissas.into_iter().chain(columns).collect())
 }
 
 /// Columns with their places in the rows, filled with numbers.
@@ -107,7 +105,7 @@ fn read_rows(
             let found = number(cell).filter(|number| number.is_finite());
             column.numbers.push(found.ok_or_else(|| {
                 let remedy = if cell.contains(':') {
-                    "give times as seconds"
+                    "give times as seconds, or remove the column"
                 } else {
                     "remove the line or the column, or fill the gap"
                 };

@@ -55,12 +55,12 @@ impl<'a> Labview<'a> {
         row.get(column).copied().filter(|field| !field.is_empty())
     }
 
-    /// Unit of a column without one in its title.
-    pub(super) fn unit(&self, name: &str, column: usize) -> &'a str {
-        if name == ABSCISSA {
-            return self.unit_of_abscissa();
+    /// Unit of a column, whose title may have none; `None` if the header does not state it either.
+    pub(super) fn unit(&self, title: &str, column: usize) -> Option<&'a str> {
+        if title == ABSCISSA {
+            return Some(self.unit_of_abscissa());
         }
-        self.field("Y_Unit_Label", column).unwrap_or_default()
+        self.field("Y_Unit_Label", column)
     }
 
     fn unit_of_abscissa(&self) -> &'a str {
@@ -71,37 +71,53 @@ impl<'a> Labview<'a> {
         }
     }
 
-    /// Abscissas of rows that the file does not contain, from their first value and step; `None` if it states neither.
-    pub(super) fn abscissa(
+    /// Abscissas of rows of columns at some places, from the first value and the step of these columns; `None` if
+    /// the table contains abscissas, or its header no step.
+    pub(super) fn abscissas(
         &self,
-        columns: &[NumberColumn],
+        columns: &[(usize, NumberColumn)],
+        rows: usize,
     ) -> Result<Option<NumberColumn>, FitError> {
-        let fields = |tag| self.header.iter().rev().find(|row| row[0] == tag);
-        let steps = fields("Delta_X").map_or(&[][..], |row| &row[1..]);
-        let number = |field: &str| field.replace(',', ".").parse::<f64>().ok();
-        let mut known = steps.iter().filter(|step| !step.is_empty());
-        let Some(step) = known.next() else {
-            return Ok(None);
-        };
-        if columns.iter().any(|column| column.name == ABSCISSA) {
+        if columns.iter().any(|(_, column)| column.name == ABSCISSA) {
             return Ok(None);
         }
-        if let Some(other) = known.find(|other| *other != step) {
-            let problem = format!("Delta_X is {step} and {other}; export channels of one rate");
-            return Err(wrong(1, problem));
-        }
-        let Some(step) = number(step) else {
-            return Err(wrong(
-                1,
-                format!("Delta_X must be a number (you gave '{step}'); correct it"),
-            ));
+        let number = |tag, column| {
+            let Some(field) = self.field(tag, column) else {
+                return Ok(None);
+            };
+            let found = field.replace(',', ".").parse::<f64>();
+            let problem =
+                || format!("{tag} of the header must be a number (you gave '{field}'); correct it");
+            found.map(Some).map_err(|_| wrong(1, problem()))
         };
-        let first = self.field("X0", 1).and_then(number).unwrap_or_default();
-        let count = columns.first().map_or(0, |column| column.numbers.len());
+        let mut known = None;
+        for (place, column) in columns {
+            let found = (
+                number("X0", *place)?.unwrap_or_default(),
+                number("Delta_X", *place)?,
+            );
+            match known.get_or_insert(found) {
+                before if *before == found => (),
+                (first, step) => {
+                    let problem = format!(
+                        "{} has X0 {} and Delta_X {}, the columns before it {first} and {}; keep columns with the same \
+                         abscissas",
+                        column.name,
+                        found.0,
+                        found.1.unwrap_or_default(),
+                        step.unwrap_or_default()
+                    );
+                    return Err(wrong(1, problem));
+                }
+            }
+        }
+        let Some((first, Some(step))) = known else {
+            return Ok(None);
+        };
         Ok(Some(NumberColumn {
             name: ABSCISSA.to_owned(),
             unit: self.unit_of_abscissa().to_owned(),
-            numbers: (0..count).map(|row| first + step * row as f64).collect(),
+            numbers: (0..rows).map(|row| first + step * row as f64).collect(),
         }))
     }
 }

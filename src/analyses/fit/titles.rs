@@ -7,7 +7,7 @@ use super::table::{Record, Separator, wrong};
 const UNITS: &str = "s sec second seconds sek sekunde sekunden seconde secondes ms msec millisecond milliseconds \
     millisekunden us µs μs ns min h m mm cm um µm μm nm in mil V mv volt volts pa kpa mpa N kn g hz khz \
     rpm krpm 1/min min-1 min^-1 min⁻¹ u/min r/min rev/min tr/min rps 1/s rev/s u/s rad radian radians \
-    deg degree degrees ° grad gon db dbv %";
+    deg degree degrees ° grad gon db dbv % inch mils ma kw bar °c";
 /// Units that are words of names as well, so that they need brackets, a division, or "in" before them.
 const WORDS: [&str; 3] = ["min", "h", "in"];
 /// Arguments of a function such as in `x(t)`.
@@ -70,16 +70,26 @@ impl Titles {
         Ok(Titles { names, units })
     }
 
-    /// Name and unit of a column; "column 2" without a name.
-    pub(super) fn of_column(&self, column: usize) -> (String, String) {
-        let cell = |row: &[String]| row.get(column).cloned().unwrap_or_default();
-        let (name, unit) = split_unit(&cell(&self.names));
-        let below = bare(&cell(&self.units)).to_owned();
-        let unit = if below.is_empty() { unit } else { below };
-        if name.is_empty() {
-            (format!("column {}", column + 1), unit)
+    /// Title of a column; "column 2" without one.
+    pub(super) fn of_column(&self, column: usize) -> String {
+        let title = self
+            .names
+            .get(column)
+            .map_or("", |name| name.trim_matches('"'));
+        let words: Vec<&str> = title.split_whitespace().collect();
+        if words.is_empty() {
+            format!("column {}", column + 1)
         } else {
-            (name, unit)
+            words.join(" ")
+        }
+    }
+
+    /// Name and unit of a column.
+    pub(super) fn split(&self, column: usize) -> (String, String) {
+        let (name, unit) = split_unit(&self.of_column(column));
+        match self.units.get(column).map_or("", |cell| bare(cell)) {
+            "" => (name, unit),
+            below => (name, below.to_owned()),
         }
     }
 }
@@ -112,7 +122,7 @@ fn is_unit(text: &str) -> bool {
 
 /// A name without its unit, and the unit: `probe [mm]`, `deflection_m`, `t/s`, `Zeit in s`, `rpm`.
 fn split_unit(text: &str) -> (String, String) {
-    let text = text.trim();
+    let text = text.trim_end_matches('_');
     let is_whole =
         is_unit(text) && !WORDS.contains(&text) && text != "s" && !text.starts_with("s/");
     let found = bracketed(text)
@@ -180,6 +190,8 @@ mod tests {
             ("Weg in x-Richtung", "Weg in x-Richtung", ""),
             ("Motor Speed RPM", "Motor Speed", "RPM"),
             ("time_min", "time_min", ""),
+            ("Frequency_kHz_", "Frequency", "kHz"),
+            ("column 2", "column 2", ""),
             ("Dev1/ai0", "Dev1/ai0", ""),
             ("FRF dB re 1 mm/N", "FRF", "dB re 1 mm/N"),
             ("Magnitude [dB (re 1 m/N)]", "Magnitude", "dB (re 1 m/N)"),
