@@ -27,12 +27,12 @@ SECONDS = _units(
     (1e-6, "us µs μs microseconds"),
     (60.0, "min minutes minuten"),
 )
-HERTZ = _units((1.0, "Hz"), (1e3, "kHz"), (0.5 / pi, "rad/s"), (1.0 / 60.0, "rpm cpm 1/min min-1"))
+HERTZ = _units((1.0, "Hz hertz"), (1e3, "kHz"), (0.5 / pi, "rad/s"), (1.0 / 60.0, "rpm cpm 1/min min-1"))
 RADIANS = _units((1.0, "rad radian radians"), (pi / 180.0, "deg degree degrees ° grad"))
 _RPM = _units((1.0, "rpm 1/min min-1 min^-1 min⁻¹ u/min r/min rev/min tr/min"))
 # Units that others than speeds have as well.
 _OF_SPEED = _units((1e3, "krpm"), (60.0, "hz rps rev/s u/s"), (30.0 / pi, "rad/s"), (1.0 / 6.0, "deg/s °/s"))
-_SPEEDS = {"rpm", "speed", "drehzahl", "spindeldrehzahl", "vitesse", "varvtal"}
+_SPEEDS = ("rpm", "speed", "drehzahl", "vitesse", "varvtal")
 
 
 def factor(units: dict[str, float], unit: str) -> float | None:
@@ -70,9 +70,9 @@ class Channel:
     def is_speed(self) -> bool:
         """Whether it is a speed, by its unit or by its name."""
         name = self.name.lower()
-        # A column named n may also be the number of the sample.
-        is_n = name == "n" and not self.rises_evenly()
-        is_named = not _SPEEDS.isdisjoint(name.replace("_", " ").split())
+        # A column named n may also have the numbers of the samples.
+        is_n = name == "n" and not (np.diff(self.samples) == 1.0).all()
+        is_named = any(word.endswith(_SPEEDS) for word in name.replace("_", " ").split())
         return factor(_RPM, self.unit) is not None or is_n or is_named
 
     def to_rpm(self) -> float | None:

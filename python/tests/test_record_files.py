@@ -58,8 +58,10 @@ def test_a_time_of_an_unknown_name_is_no_signal(tmp_path: Path) -> None:
         sf.read_record(path, rpm=0)
     with pytest.raises(sf.InputError, match="rises evenly .*name it time_s"):
         sf.read_record(path, rpm=0, rate_hz=RATE, signal=0)
-    path.write_text(table("time_s;probe [mm]", [TIME, PROBE]))
-    assert_is_probe(sf.read_record(path, rpm=0))
+    path.write_text(table("n;probe [mm]", [np.arange(64), PROBE]))
+    assert_is_probe(sf.read_record(path, rpm=0, rate_hz=RATE))
+    with pytest.raises(sf.InputError, match="no channel of a speed"):
+        sf.read_record(path, rate_hz=RATE)
 
 
 @pytest.mark.parametrize(
