@@ -128,7 +128,7 @@ def magnitude(path: str | os.PathLike[str], column: Channel) -> tuple[FloatArray
             )
         return column.samples, column.unit
     reference = column.unit[2:].strip(" ()")
-    level = re.fullmatch(r"(?:re[fl]?\b[.:]?\s*)?(\d[\d.]*(?:e[-+]?\d+)?)?\s*(\S*)", reference, re.IGNORECASE)
+    level = re.fullmatch(r"(?:re[fl]?\b[.:]?\s*)?(\d+(?:\.\d*)?(?:e[-+]?\d+)?)?\s*(\S*)", reference, re.IGNORECASE)
     if level is None or column.unit[2:3] not in ("", " ", "(") or reference in ("A", "B", "C"):
         raise InputError(
             f"the magnitudes {column.name} of {path} are in {column.unit!r}, which has no known reference; "
