@@ -9,9 +9,9 @@ from .errors import refused
 
 # A pulse begins above the upper share of the range of the signal, after it was below the lower one.
 _LOWER, _MIDDLE, _UPPER = 0.4, 0.5, 0.6
-# Pulses are between the outer shares of their range for at most a share of the time, and their range
-# is at least a share of their largest value.
-_OUTER, _BETWEEN, _RANGE = 0.2, 0.1, 0.5
+# Pulses are between these for at most a share of the time, a sine for 0.13 of it, and their range is at
+# least a share of their largest value.
+_BETWEEN, _RANGE = 0.04, 0.5
 # A turn that is shorter or longer than these multiples of the median of five has a pulse too many or
 # too few.
 _SHORTEST, _LONGEST = 0.6, 1.6
@@ -20,10 +20,9 @@ _SHORTEST, _LONGEST = 0.6, 1.6
 def jumps(samples: FloatArray) -> bool:
     """Whether a signal jumps between two levels several times, as no speed and no vibration does."""
     low, high = float(samples.min()), float(samples.max())
-    outer = _OUTER * (high - low)
-    between = (samples > low + outer) & (samples < high - outer)
     is_wide = high - low >= _RANGE * max(abs(low), abs(high)) > 0.0
-    return is_wide and between.mean() <= _BETWEEN and len(_begins(samples)) > 1
+    between = (samples > _level(samples, _LOWER)) & (samples < _level(samples, _UPPER))
+    return is_wide and bool(between.mean() <= _BETWEEN) and len(_begins(samples)) > 1
 
 
 def speed_of(samples: FloatArray, rate_hz: float, pulses_per_turn: int) -> FloatArray:
@@ -37,7 +36,7 @@ def speed_of(samples: FloatArray, rate_hz: float, pulses_per_turn: int) -> Float
         allowed = f"a channel with more pulses than those of one turn, {pulses_per_turn}"
         remedy = "give the channel of the pulses, or the speed as rpm"
         raise refused("tacho", f"{len(begun)} pulses", allowed, remedy)
-    middle = samples.min() + _MIDDLE * np.ptp(samples)
+    middle = _level(samples, _MIDDLE)
     before, after = samples[begun - 1], samples[begun]
     share = np.clip((middle - before) / np.where(after > before, after - before, 1.0), 0.0, 1.0)
     times = (begun - 1 + share) / rate_hz
@@ -56,12 +55,16 @@ def speed_of(samples: FloatArray, rate_hz: float, pulses_per_turn: int) -> Float
     return np.asarray(np.interp(np.arange(len(samples)) / rate_hz, middles, 60.0 / turns))
 
 
+def _level(samples: FloatArray, share: float) -> float:
+    """The level at a share of the range of samples."""
+    return float((1.0 - share) * samples.min() + share * samples.max())
+
+
 def _begins(samples: FloatArray) -> IntArray:
     """Places of the first samples of pulses."""
-    low, high = float(samples.min()), float(samples.max())
-    lower, upper = (low + share * (high - low) for share in (_LOWER, _UPPER))
+    is_upper, is_lower = samples >= _level(samples, _UPPER), samples <= _level(samples, _LOWER)
     # Levels that are neither high nor low keep the last state.
-    state = np.where(samples >= upper, 1, np.where(samples <= lower, 0, -1))
+    state = np.where(is_upper, 1, np.where(is_lower, 0, -1))
     known = np.maximum.accumulate(np.where(state >= 0, np.arange(len(state)), 0))
     is_high = state[known] == 1
     return np.asarray(np.flatnonzero(is_high[1:] & ~is_high[:-1]) + 1)
