@@ -121,3 +121,32 @@ impl<'a> Labview<'a> {
         }))
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use crate::analyses::fit::number_columns;
+
+    #[test]
+    fn units_and_missing_abscissas_are_those_of_the_header() {
+        let text = "LabVIEW Measurement\nSeparator\tTab\n***End_of_Header***\nY_Unit_Label\tmm\tN\nX_Dimension\tTime\t\
+                    Time\nX0\t1,0\t1,0\nDelta_X\t0,5\t0,5\n***End_of_Header***\nX_Value\tprobe (raw)\tforce\tComment\n\
+                    \t0,1\t3,0\ttap\n\t0,2\t4,0\n";
+        let found = number_columns(text).unwrap();
+        let heads: Vec<_> = found
+            .iter()
+            .map(|of| (of.name.as_str(), of.unit.as_str(), &of.numbers[..]))
+            .collect();
+        assert_eq!(
+            heads,
+            [
+                ("X_Value", "s", &[1.0, 1.5][..]),
+                ("probe (raw)", "mm", &[0.1, 0.2]),
+                ("force", "N", &[3.0, 4.0]),
+            ]
+        );
+        let error = number_columns(&text.replace("\t0,5\n", "\t0,25\n")).unwrap_err();
+        assert!(error.to_string().contains("Delta_X 0.25"), "{error}");
+        let error = number_columns(&text.replace("\t4,0", "\tb")).unwrap_err();
+        assert!(error.to_string().contains("line 11 of"), "{error}");
+    }
+}
