@@ -156,7 +156,8 @@ def _speeds(rpm: npt.ArrayLike, size: int, rate_hz: float) -> FloatArray:
         raise refused("rpm", rpm, "a number, or numbers", remedy) from None
     speeds = numbers[..., 1:] if numbers.ndim == 2 else numbers
     if not (np.isfinite(numbers).all() and ((speeds >= 0.0) & (speeds <= _MOST_RPM)).all()):
-        raise refused("rpm", f"from {speeds.min():g} to {speeds.max():g}", f"from 0 to {_MOST_RPM:g}", "give speeds in rpm")
+        remedy = "give speeds in rpm without a sign, and pulses of a tachometer as tacho"
+        raise refused("rpm", f"from {speeds.min():g} to {speeds.max():g}", f"from 0 to {_MOST_RPM:g}", remedy)
     if numbers.ndim == 0:
         return np.full(size, float(numbers))
     if numbers.shape == (size,):

@@ -9,7 +9,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from . import _channels, _native
+from . import _files, _native
+from ._channels import even_step
 from ._drawn import Drawn
 from ._entry import ComplexArray, Entry, FloatArray, array
 from ._extras import extra
@@ -85,19 +86,20 @@ def read_frf(
 ) -> Spectrum:
     """Reads a frequency response from a table or from a universal file with a data set 58 of type 4.
 
-    A table has the columns frequency in Hz, real part, imaginary part; or frequency and magnitude.
-    Universal files are read by pyuff.
+    A table has named columns: frequency, real and imaginary part; or frequency, magnitude, also as a
+    level in dB, and phase, which may be missing. Units are read from the names, such as ``f_hz``,
+    ``FRF [dB re 1 mm/N]``, ``phase [deg]``.
 
     Parameters
     ----------
     path : str or path
-        The file: .csv (.txt, .tsv, .dat), .uff (.unv, .uf).
+        The file: .csv (.txt, .tsv, .dat, .lvm), .uff (.unv, .uf).
     rpm : float, optional
         Rotation speed; by default that on the z axis of the data set, or 0, at rest.
     number : int
         Number of the frequency response in the file, from 0.
     """
-    found = _channels.read_responses(path)
+    found = _files.read_responses(path)
     if not 0 <= number < len(found):
         names = ", ".join(f"{place} ({of.name})" for place, of in enumerate(found))
         raise refused("number", number, f"a frequency response of {path}", f"it has {names}")
@@ -106,15 +108,17 @@ def read_frf(
     speed = given if given is not None else of.rpm or 0.0
     if not speed >= 0.0:
         raise refused("rpm", speed, "0 or more", "give the rotation speed in rpm")
+    if not (np.isfinite(of.frequency_hz).all() and np.isfinite(of.response).all()):
+        raise InputError(f"{path} has numbers that are not finite; remove these frequencies")
     steps = np.diff(of.frequency_hz)
-    if len(steps) < _FEWEST or not steps.min() > 0.0 or steps.max() > 1.01 * steps.min():
+    step = even_step(of.frequency_hz)
+    if len(steps) < _FEWEST or step is None:
         raise InputError(
             f"{path} has {len(of.frequency_hz)} frequencies with steps from {steps.min(initial=np.inf):g} to "
             f"{steps.max(initial=0.0):g} Hz, but must have more than {_FEWEST} at even steps; resample it"
         )
     response = array(of.response, np.complex128)
-    width = 2.0 * float(steps.mean())
-    return Spectrum(array(of.frequency_hz), response, speed, width, of.unit, of.name)
+    return Spectrum(array(of.frequency_hz), response, speed, 2.0 * step, of.unit, of.name)
 
 
 def after_tap(record: Record, to_hz: float) -> Spectrum:

@@ -221,7 +221,6 @@ def test_guides_without_stiffness_leave_the_free_blade(draft: sf.Scene) -> None:
         ("plotly.subplots", "plot", lambda r: r.plot()),
         ("pandas", "pandas", lambda r: r.to_dataframe()),
         ("xarray", "xarray", lambda r: r.to_xarray()),
-        ("pyuff", "records", lambda _: sf.read_record("a.uff", rpm=0)),
         ("scipy.io", "records", lambda _: sf.read_record("a.wav", rpm=0)),
     ],
 )

@@ -247,6 +247,7 @@ def test_the_chart_shows_spectra_branches_orders_and_peaks(report: sf.CampbellRe
         ("a.csv", "t,x\n0,1\n1,2\n", {"rpm": "n"}, "named by speed or tacho"),
         ("a.csv", "t,y,x\n0,1,0\n1,2,1\n", {"tacho": "x", "pulses_per_turn": 0}, "at least 1"),
         ("a.csv", "t,x\n0,1\n1,2\n", {"rpm": 0, "signal": "y"}, r"it has 0 \(x\)"),
+        ("a.csv", "t,x,x\n0,1,2\n1,2,4\n", {"rpm": 0, "signal": "x"}, r"it has 0 \(x\), 1 \(x\)"),
         ("a.csv", "t,x\n0,1\n1,2\n", {"rpm": 0, "speed": 0}, "one source"),
         ("a.csv", "t,x,k\n0,1,0\n1,2,1\n", {"tacho": "k"}, "tacho must be .*you gave '1 pulses'"),
         ("a.csv", "t,x\n0,1\n1,2\n", {"rpm": 0, "rate_hz": 9}, "leave it out"),
@@ -271,12 +272,13 @@ def test_bad_files_are_refused_with_a_remedy(
 
 def test_rounded_times_are_even_and_missing_samples_are_not(tmp_path: Path) -> None:
     time = np.arange(400) / 420.0
-    rounded = tmp_path / "rounded.csv"
-    np.savetxt(rounded, np.column_stack([time, time]), fmt="%.3f", delimiter=",", header="t,x", comments="")
+    rounded, probe = tmp_path / "rounded.csv", np.sin(40.0 * time)
+    np.savetxt(rounded, np.column_stack([time, probe]), fmt="%.3f", delimiter=",", header="t,x", comments="")
     assert abs(sf.read_record(rounded, rpm=0).rate_hz - 420.0) < 0.6
+    assert sf.read_record(rounded, rpm=0, rate_hz=420).rate_hz == 420.0
     for gone in (10, 200, 390):
         path = tmp_path / "gap.csv"
-        table = np.delete(np.column_stack([time, time]), gone, axis=0)
+        table = np.delete(np.column_stack([time, probe]), gone, axis=0)
         np.savetxt(path, table, delimiter=",", header="t,x", comments="")
         with pytest.raises(sf.InputError, match="not evenly spaced"):
             sf.read_record(path, rpm=0)

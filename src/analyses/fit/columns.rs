@@ -1,14 +1,12 @@
 //! Columns of numbers from the tables of instruments, with names and units, and either decimal mark.
 
 use super::FitError;
+use super::labview::Labview;
 use super::table::{Record, Separator, has_decimal_comma, number, wrong};
+use super::titles::Titles;
 
-/// Rows of names and units above the numbers.
-const TITLES: usize = 2;
-/// Units as the end of a name, like `deflection_mm`.
-const ENDINGS: [&str; 15] = [
-    "rpm", "hz", "khz", "s", "ms", "us", "m", "mm", "um", "µm", "v", "mv", "pa", "n", "g",
-];
+/// Names of columns with remarks on some rows.
+const REMARKS: [&str; 3] = ["comment", "kommentar", "commentaire"];
 
 /// A column of a table.
 #[derive(Debug, PartialEq)]
@@ -21,91 +19,104 @@ pub struct NumberColumn {
     pub numbers: Vec<f64>,
 }
 
-/// Reads a table of numbers without blanks. Names, and units below them, are optional; lines that begin with # are
-/// ignored.
+/// Reads a table of numbers. Names, and units below them, are optional, also in a comment directly above the numbers;
+/// other lines that begin with # are ignored, and so are blank columns and remarks. The header of a LabVIEW file gives
+/// it units, and abscissas if it has none.
 ///
 /// # Errors
 /// [`FitError::Table`] with the line that is no row of as many finite numbers as the first one.
 pub fn number_columns(text: &str) -> Result<Vec<NumberColumn>, FitError> {
-    let separator = Separator::of(text);
-    let mut records = separator.records(text)?;
+    let (labview, above, body) = match Labview::of(text)? {
+        Some((header, lines, body)) => (Some(header), lines, body),
+        None => (None, 0, text),
+    };
+    let separator = labview
+        .as_ref()
+        .map_or_else(|| Separator::of(body), |header| header.separator);
+    let mut records = separator.records(body)?;
+    records.iter_mut().for_each(|record| record.line += above);
     let is_title = |record: &Record| record.cells.iter().all(|cell| number(cell).is_none());
-    let count = records
-        .iter()
-        .take(TITLES)
-        .take_while(|record| is_title(record))
-        .count();
-    let titles: Vec<Record> = records.drain(..count).collect();
-    let Some(width) = records.first().map(|record| record.cells.len()) else {
-        let line = titles.last().map_or(1, |record| record.line);
+    let count = records.iter().take_while(|record| is_title(record)).count();
+    let rows = records.split_off(count);
+    let Some(first) = rows.first() else {
         let problem = "it has no line of numbers; give a table with one row for each sample";
-        return Err(wrong(line, problem.to_owned()));
+        return Err(wrong(
+            records.last().map_or(1, |record| record.line),
+            problem.to_owned(),
+        ));
     };
-    has_decimal_comma(&records, separator)?;
-    let title = |row: usize, column: usize| {
-        let cell = titles.get(row).and_then(|record| record.cells.get(column));
-        cell.map_or("", String::as_str)
-    };
-    let named = |column: usize| {
-        let (name, unit) = split_unit(title(0, column));
-        let below = title(1, column).trim_matches(['[', ']', '(', ')', ' ']);
-        NumberColumn {
-            name: if name.is_empty() {
-                format!("column {}", column + 1)
-            } else {
-                name
-            },
-            unit: if below.is_empty() {
-                unit
-            } else {
-                below.to_owned()
-            },
-            numbers: Vec::with_capacity(records.len()),
+    let leading = body
+        .lines()
+        .map_while(|line| line.trim_start().strip_prefix('#'));
+    let titles = Titles::of(records, leading.last(), first.cells.len(), separator)?;
+    has_decimal_comma(&rows, separator)?;
+    let is_remark = |name: &str| REMARKS.contains(&name.to_lowercase().as_str());
+    let width = first.cells.len().max(titles.names.len());
+    let mut columns: Vec<(usize, NumberColumn)> = Vec::new();
+    for place in 0..width {
+        let title = titles.of_column(place);
+        let is_blank = |row: &Record| row.cells.get(place).is_none_or(String::is_empty);
+        if is_remark(&title) || rows.iter().all(is_blank) {
+            continue;
         }
+        let of_header = labview
+            .as_ref()
+            .and_then(|header| header.unit(&title, place));
+        let (name, unit) = match of_header {
+            Some(unit) => (title, unit.to_owned()),
+            None => titles.split(place),
+        };
+        let numbers = Vec::with_capacity(rows.len());
+        columns.push((
+            place,
+            NumberColumn {
+                name,
+                unit,
+                numbers,
+            },
+        ));
+    }
+    let abscissas = match &labview {
+        Some(header) => header.abscissas(&columns, rows.len())?,
+        None => None,
     };
-    let mut columns: Vec<NumberColumn> = (0..width).map(named).collect();
-    for Record { line, cells } in &records {
-        if cells.len() != width {
+    let columns = read_rows(&rows, columns, width)?;
+    Ok(abscissas.into_iter().chain(columns).collect())
+}
+
+/// Columns with their places in the rows, filled with numbers.
+fn read_rows(
+    rows: &[Record],
+    mut columns: Vec<(usize, NumberColumn)>,
+    width: usize,
+) -> Result<Vec<NumberColumn>, FitError> {
+    let last = columns.last().map_or(0, |(place, _)| *place);
+    for Record { line, cells } in rows {
+        if cells.len() > width || cells.len() <= last {
             let count = cells.len();
             let problem = format!(
-                "it has {count} columns, the first one {width}; give every line the same columns"
+                "it has {count} columns, the first one {}; give every line the same columns",
+                last + 1
             );
             return Err(wrong(*line, problem));
         }
-        for (place, (column, cell)) in columns.iter_mut().zip(cells).enumerate() {
+        for (place, column) in &mut columns {
+            let cell = &cells[*place];
             let found = number(cell).filter(|number| number.is_finite());
             column.numbers.push(found.ok_or_else(|| {
-                let problem = format!(
-                    "column {} must be a finite number (you gave '{cell}'); remove the line, or fill the gap",
-                    place + 1
-                );
+                let remedy = if cell.contains(':') {
+                    "give times as seconds, or remove the column"
+                } else {
+                    "remove the line or the column, or fill the gap"
+                };
+                let place = *place + 1;
+                let problem =
+                    format!("column {place} must be a finite number (you gave '{cell}'); {remedy}");
                 wrong(*line, problem)
             })?);
         }
     }
-    Ok(columns)
-}
-
-/// A name without its unit, and the unit: `probe [mm]`, `deflection_m`, `rpm`.
-fn split_unit(text: &str) -> (String, String) {
-    let text = text.trim();
-    if let Some((name, rest)) = text.split_once(['[', '(']) {
-        let unit = rest.split([']', ')']).next().unwrap_or_default().trim();
-        let name = name.trim();
-        return (
-            if name.is_empty() { unit } else { name }.to_owned(),
-            unit.to_owned(),
-        );
-    }
-    match text.rsplit_once('_') {
-        Some((name, unit))
-            if !name.is_empty() && ENDINGS.contains(&unit.to_lowercase().as_str()) =>
-        {
-            (name.to_owned(), unit.to_owned())
-        }
-        _ if text.eq_ignore_ascii_case("rpm") => (text.to_owned(), "rpm".to_owned()),
-        _ => (text.to_owned(), String::new()),
-    }
+    Ok(columns.into_iter().map(|(_, column)| column).collect())
 }
 
 #[cfg(test)]
@@ -122,14 +133,6 @@ mod tests {
             .collect();
         assert_eq!(heads, [("t", "s"), ("probe", "mm"), ("n", "")]);
         assert_eq!(found[1].numbers, [0.1, 0.2]);
-        for (text, name, unit) in [
-            ("probe [mm]", "probe", "mm"),
-            ("deflection_m", "deflection", "m"),
-            ("rpm", "rpm", "rpm"),
-            ("f", "f", ""),
-        ] {
-            assert_eq!(split_unit(text), (name.to_owned(), unit.to_owned()));
-        }
         let bare = number_columns("0 1\n1 2\n").unwrap();
         assert_eq!(
             (bare[1].name.as_str(), &bare[1].numbers[..]),

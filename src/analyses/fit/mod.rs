@@ -26,6 +26,7 @@ pub(crate) mod chart;
 mod columns;
 mod comparison;
 mod error;
+mod labview;
 mod least_squares;
 mod matching;
 mod measurement;
@@ -35,6 +36,7 @@ mod outline;
 mod report;
 mod starts;
 mod table;
+mod titles;
 
 use crate::model::evenly_spaced;
 use crate::model::plate::Resolution;

@@ -1,0 +1,70 @@
+"""Pulses of a tachometer."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from ._entry import FloatArray, IntArray
+from .errors import refused
+
+# A pulse begins above the upper share of the range of the signal, after it was below the lower one.
+_LOWER, _MIDDLE, _UPPER = 0.4, 0.5, 0.6
+# Pulses are between these for at most a share of the time, a sine for 0.13 of it, and their range is at
+# least a share of their largest value.
+_BETWEEN, _RANGE = 0.04, 0.5
+# A turn that is shorter or longer than these multiples of the median of five has a pulse too many or
+# too few.
+_SHORTEST, _LONGEST = 0.6, 1.6
+
+
+def jumps(samples: FloatArray) -> bool:
+    """Whether a signal jumps between two levels several times, as no speed and no vibration does."""
+    low, high = float(samples.min()), float(samples.max())
+    is_wide = high - low >= _RANGE * max(abs(low), abs(high)) > 0.0
+    between = (samples > _level(samples, _LOWER)) & (samples < _level(samples, _UPPER))
+    return is_wide and bool(between.mean() <= _BETWEEN) and len(_begins(samples)) > 1
+
+
+def speed_of(samples: FloatArray, rate_hz: float, pulses_per_turn: int) -> FloatArray:
+    """The speed in rpm at each sample. Each turn gives its mean speed, at its middle; between these
+    the speed is interpolated, and before the first and after the last one it is constant."""
+    if pulses_per_turn < 1:
+        remedy = "give the number of marks or slots of the tachometer"
+        raise refused("pulses_per_turn", pulses_per_turn, "at least 1", remedy)
+    begun = _begins(samples)
+    if len(begun) <= pulses_per_turn:
+        allowed = f"a channel with more pulses than those of one turn, {pulses_per_turn}"
+        remedy = "give the channel of the pulses, or the speed as rpm"
+        raise refused("tacho", f"{len(begun)} pulses", allowed, remedy)
+    middle = _level(samples, _MIDDLE)
+    before, after = samples[begun - 1], samples[begun]
+    share = np.clip((middle - before) / np.where(after > before, after - before, 1.0), 0.0, 1.0)
+    times = (begun - 1 + share) / rate_hz
+    turns = times[pulses_per_turn:] - times[:-pulses_per_turn]
+    if len(turns) >= 5:
+        median = np.median(np.lib.stride_tricks.sliding_window_view(turns, 5), axis=1)
+        ratio = turns[2:-2] / median
+        wrong = np.flatnonzero((ratio < _SHORTEST) | (ratio > _LONGEST))
+        if len(wrong):
+            at = wrong[0] + 2
+            given = f"a turn of {turns[at]:.3g} s between turns of {median[wrong[0]]:.3g} s at {times[at]:.3g} s"
+            allowed = "pulses of which none is missing and none is added"
+            remedy = "filter the pulses, or give the speed as rpm: pairs (time in s, rpm)"
+            raise refused("tacho", given, allowed, remedy)
+    middles = 0.5 * (times[pulses_per_turn:] + times[:-pulses_per_turn])
+    return np.asarray(np.interp(np.arange(len(samples)) / rate_hz, middles, 60.0 / turns))
+
+
+def _level(samples: FloatArray, share: float) -> float:
+    """The level at a share of the range of samples."""
+    return float((1.0 - share) * samples.min() + share * samples.max())
+
+
+def _begins(samples: FloatArray) -> IntArray:
+    """Places of the first samples of pulses."""
+    is_upper, is_lower = samples >= _level(samples, _UPPER), samples <= _level(samples, _LOWER)
+    # Levels that are neither high nor low keep the last state.
+    state = np.where(is_upper, 1, np.where(is_lower, 0, -1))
+    known = np.maximum.accumulate(np.where(state >= 0, np.arange(len(state)), 0))
+    is_high = state[known] == 1
+    return np.asarray(np.flatnonzero(is_high[1:] & ~is_high[:-1]) + 1)
