@@ -183,10 +183,14 @@ fn a_page_is_written_beside_the_files_or_refused() {
     // The page has the sentences of the terminal.
     let first = text(&output.stdout).lines().nth(2).unwrap();
     assert!(text_of(&check).contains(first), "{first}");
-    for wrong in [
-        folder.path().join("none/page.html"),
-        folder.path().to_owned(),
-    ] {
+    // The folder of a page is made.
+    let inner = folder.path().join("none/inner/page.html");
+    report(
+        &["analyze", scene, "--report", inner.to_str().unwrap()],
+        &folder,
+    );
+    assert!(text_of(&inner).ends_with("</html>\n"));
+    for wrong in [page.join("page.html"), folder.path().to_owned()] {
         let other = TempDir::new().unwrap();
         let arguments = ["analyze", scene, "--report", wrong.to_str().unwrap()];
         assert_refused(&arguments, "--report", &other);
