@@ -91,6 +91,7 @@ pub fn fit(
             basis(scene, measurement, tolerance)?.saw.plate.resolution
         }
     };
+    let coarse = holding(coarse, measurement);
     let Parted {
         moving: freed,
         idle: without_effect,
@@ -116,6 +117,7 @@ pub fn fit(
             (chosen.saw.plate.resolution, Some(error))
         }
     };
+    let resolution = holding(resolution, measurement);
     let fine = model(resolution);
     let best = refined(&fine, &candidates)?.unwrap_or_else(|| best_start.clone());
     let spread = statistics(&fine, &best.shares, options.confidence)?;
@@ -232,6 +234,15 @@ fn path(freed: &Freed) -> String {
 /// Root mean square of residuals.
 fn rms(residuals: &[f64]) -> f64 {
     (residuals.iter().map(|r| r * r).sum::<f64>() / residuals.len() as f64).sqrt()
+}
+
+/// A basis that also has the nodal diameters by which frequencies are named.
+fn holding(resolution: Resolution, measurement: &Measurement) -> Resolution {
+    let max_diameters = resolution.max_diameters.max(measurement.most_diameters());
+    Resolution {
+        max_diameters,
+        ..resolution
+    }
 }
 
 /// The basis for a tolerance up to the measured speeds.
