@@ -359,6 +359,52 @@ fn taps_of_pairs_recover_the_modulus() {
     assert!(refused.contains("rotation splits every pair"), "{refused}");
 }
 
+/// All frequencies of a clamped blade are proportional to √E, so that f_i/(2E) is the derivative of the i-th and the variances can
+/// be written down: with equal errors Σ r²/(m − 1)/Σ x², and HC3 for unequal ones. The quantile is that of Student's t for 5
+/// degrees of freedom from a table.
+#[test]
+fn an_error_of_the_highest_frequency_widens_the_interval() {
+    let saw = scene("collar-400mm");
+    let mut hz = exact(&saw, &[0.0], 6).remove(0);
+    hz[5] *= 1.01;
+    let columns: Vec<_> = hz.iter().copied().map(Some).collect();
+    let measurement = Measurement {
+        source: "taps".into(),
+        rows: vec![Row::new(0.0, &columns)],
+    };
+    let free = freed(
+        &saw,
+        &[("blade.material.youngs_modulus_pa", 1.5e11, 2.6e11)],
+    );
+    let options = Options {
+        resolution: Some(SMALL),
+        starts: 1,
+        ..Options::default()
+    };
+    let fit = fit(&saw, &measurement, &free, &options, &|_, _| ()).unwrap();
+    let found = &fit.parameters[0];
+    let slopes = || {
+        fit.residuals
+            .iter()
+            .map(|r| 0.5 * r.fitted_hz / found.value)
+    };
+    let off = || fit.residuals.iter().map(|r| r.fitted_hz - r.measured_hz);
+    let length: f64 = slopes().map(|x| x * x).sum();
+    let of_equal = off().map(|r| r * r).sum::<f64>() / 5.0 / length;
+    let terms = slopes()
+        .zip(off())
+        .map(|(x, r)| x / length * r / (1.0 - x * x / length));
+    let of_unequal: f64 = terms.map(|term| term * term).sum();
+    assert!(of_unequal > 1.2 * of_equal, "{of_unequal} {of_equal}");
+    let half = 0.5 * (found.interval_to.unwrap() - found.interval_from.unwrap());
+    assert_close(
+        "half of the interval",
+        half,
+        2.570582 * of_unequal.sqrt(),
+        1e-3,
+    );
+}
+
 /// No such saw has these frequencies, far above its own: the residuals are of their size, and Student's interval is
 /// wider than the bounds.
 #[test]
