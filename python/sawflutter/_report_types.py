@@ -1552,9 +1552,9 @@ class Parameter(Entry):
     path : JSON path in the scene.
     start : Value before the fit.
     value : Fitted value.
-    interval_from : Lower end of the interval. Null at a bound, and if the data do not determine
-        this number: they do not distinguish it from others, or the interval is wider than the
-        distance between its bounds.
+    interval_from : Lower end of the interval of this minimum. Null at a bound, and if the data
+        do not determine this number: they do not distinguish it from others, or the interval is
+        wider than the distance between its bounds.
     interval_to : Upper end of the interval.
     bound_from : Lower bound.
     bound_to : Upper bound.
@@ -1569,6 +1569,20 @@ class Parameter(Entry):
     bound_from: float
     bound_to: float
     at_bound: bool
+
+
+@dataclass(frozen=True, eq=False, repr=False, kw_only=True)
+class Minimum(Entry):
+    """Another saw that fits about as well.
+
+    Attributes
+    ----------
+    rms_hz : Root mean square of computed minus measured frequencies.
+    parameters : Fitted numbers.
+    """
+
+    rms_hz: float
+    parameters: tuple[Parameter, ...]
 
 
 @dataclass(frozen=True, eq=False, repr=False, kw_only=True)
@@ -1642,6 +1656,8 @@ class FitReport(Entry):
     parameters : Fitted numbers.
     without_effect : Freed numbers without effect on the measured frequencies; they keep their
         values.
+    other_minima : Other minima that fit about as well, best first: the measured frequencies do
+        not tell their saws apart. The intervals of each hold if its own saw is the true one.
     correlation : Correlation of the parameters, in their order.
     measured_frequencies : Number of fitted frequencies.
     degrees_of_freedom : Number of measured frequencies minus number of free numbers.
@@ -1664,6 +1680,7 @@ class FitReport(Entry):
     confidence: float
     parameters: tuple[Parameter, ...]
     without_effect: tuple[str, ...]
+    other_minima: tuple[Minimum, ...] = field(default=())
     correlation: FloatArray
     measured_frequencies: int
     degrees_of_freedom: int
