@@ -1593,6 +1593,8 @@ class Residual(Entry):
     ----------
     rpm : Rotation speed.
     place : Rank of the computed frequency at this speed, from 1, ascending.
+    diameters : Number of nodal diameters with the largest share in the fitted mode; null if the
+        basis has no such mode.
     measured_hz : Measured frequency.
     before_hz : Frequency computed before the fit.
     fitted_hz : Frequency computed with the fitted numbers.
@@ -1601,6 +1603,7 @@ class Residual(Entry):
 
     rpm: float
     place: int
+    diameters: int | None
     measured_hz: float
     before_hz: float
     fitted_hz: float

@@ -102,6 +102,8 @@ pub struct Residual {
     pub rpm: f64,
     /// Rank of the computed frequency at this speed, from 1, ascending.
     pub place: usize,
+    /// Number of nodal diameters with the largest share in the fitted mode; null if the basis has no such mode.
+    pub diameters: Option<usize>,
     /// Measured frequency.
     pub measured_hz: f64,
     /// Frequency computed before the fit.
