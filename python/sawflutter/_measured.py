@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import re
 from collections.abc import Iterable, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, TypeAlias
@@ -46,7 +47,13 @@ def table(measured: Measured) -> tuple[str, str] | None:
 def lines(measured: Any) -> str:
     """Lines of a table of frequencies, with blanks for NaN."""
     cells = [["" if np.isnan(hz) else repr(hz) for hz in row] for row in _rows(measured)]
-    return "".join(f"{','.join(row)}\n" for row in cells)
+    return "".join(f"{','.join(row)}\n" for row in _names(measured) + cells)
+
+
+def _names(measured: Any) -> list[list[str]]:
+    """The line of names of a data frame whose columns are named by nodal diameters; the others have ascending frequencies."""
+    names = [str(name) for name in getattr(measured, "columns", []) if name != "rpm"]
+    return [["rpm", *names]] if any(re.fullmatch(r"n ?=? ?\d+", name) for name in names) else []
 
 
 def _rows(measured: Any) -> list[list[float]]:

@@ -1560,9 +1560,9 @@ class Parameter(Entry):
     path : JSON path in the scene.
     start : Value before the fit.
     value : Fitted value.
-    interval_from : Lower end of the interval. Null at a bound, and if the data do not determine
-        this number: they do not distinguish it from others, or the interval is wider than the
-        distance between its bounds.
+    interval_from : Lower end of the interval of this minimum. Null at a bound, and if the data
+        do not determine this number: they do not distinguish it from others, or the interval is
+        wider than the distance between its bounds.
     interval_to : Upper end of the interval.
     bound_from : Lower bound.
     bound_to : Upper bound.
@@ -1580,6 +1580,20 @@ class Parameter(Entry):
 
 
 @dataclass(frozen=True, eq=False, repr=False, kw_only=True)
+class Minimum(Entry):
+    """Another saw that fits about as well.
+
+    Attributes
+    ----------
+    rms_hz : Root mean square of computed minus measured frequencies.
+    parameters : Fitted numbers.
+    """
+
+    rms_hz: float
+    parameters: tuple[Parameter, ...]
+
+
+@dataclass(frozen=True, eq=False, repr=False, kw_only=True)
 class Residual(Entry):
     """A measured frequency and the corresponding computed one.
 
@@ -1587,6 +1601,8 @@ class Residual(Entry):
     ----------
     rpm : Rotation speed.
     place : Rank of the computed frequency at this speed, from 1, ascending.
+    diameters : Number of nodal diameters with the largest share in the fitted mode; null if the
+        basis has no such mode.
     measured_hz : Measured frequency.
     before_hz : Frequency computed before the fit.
     fitted_hz : Frequency computed with the fitted numbers.
@@ -1595,6 +1611,7 @@ class Residual(Entry):
 
     rpm: float
     place: int
+    diameters: int | None
     measured_hz: float
     before_hz: float
     fitted_hz: float
@@ -1650,6 +1667,8 @@ class FitReport(Entry):
     parameters : Fitted numbers.
     without_effect : Freed numbers without effect on the measured frequencies; they keep their
         values.
+    other_minima : Other minima that fit about as well, best first: the measured frequencies do
+        not tell their saws apart. The intervals of each hold if its own saw is the true one.
     correlation : Correlation of the parameters, in their order.
     measured_frequencies : Number of fitted frequencies.
     degrees_of_freedom : Number of measured frequencies minus number of free numbers.
@@ -1672,6 +1691,7 @@ class FitReport(Entry):
     confidence: float
     parameters: tuple[Parameter, ...]
     without_effect: tuple[str, ...]
+    other_minima: tuple[Minimum, ...] = field(default=())
     correlation: FloatArray
     measured_frequencies: int
     degrees_of_freedom: int

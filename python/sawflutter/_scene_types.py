@@ -633,7 +633,7 @@ class ProbeDict(_ProbeDict, total=False):
     """Distance from the axis; the rim by default."""
 
 
-class MeasuredRowDict(TypedDict):
+class _MeasuredRowDict(TypedDict):
     """Frequencies at one speed."""
 
     rpm: float
@@ -641,6 +641,14 @@ class MeasuredRowDict(TypedDict):
 
     frequencies_hz: list[float | None]
     """Frequencies in the space-fixed frame, ascending; null for one that was not measured."""
+
+
+class MeasuredRowDict(_MeasuredRowDict, total=False):
+    """Frequencies at one speed."""
+
+    diameters: list[int] | None
+    """Number of nodal diameters of each frequency, for a row at rest. Without it the
+    frequencies ascend from the lowest."""
 
 
 class MeasuredDict(TypedDict):

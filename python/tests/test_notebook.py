@@ -46,6 +46,11 @@ def test_frequencies_alone_are_those_at_rest(at_rest: Any) -> None:
     assert table(at_rest) == ("measured", "0.0,10.0,15.5\n")
 
 
+def test_a_frame_may_name_its_columns_by_nodal_diameters() -> None:
+    frame = pd.DataFrame([[152.6, 0.0, 127.1, np.nan]], columns=["n2", "rpm", "n0", "n1"])
+    assert table(frame) == ("measured", "rpm,n2,n0,n1\n0.0,152.6,127.1,\n")
+
+
 @pytest.mark.parametrize(
     "measured", [3.0, [["a", "b"]], pd.DataFrame({"speed": [1.0]}), [[0.0, [1.0, "x"]]]]
 )

@@ -26,10 +26,27 @@ pub fn exact(scene: &Scene, rpm: &[f64], count: usize) -> Vec<Vec<f64>> {
 /// Speeds of a measurement, in rpm.
 pub const SPEEDS: [f64; 4] = [0.0, 400.0, 800.0, 1200.0];
 
-/// The frequencies as a measurement, with the noise added to each.
-pub fn measured(exact: &[Vec<f64>], mut noise: impl FnMut() -> f64) -> Measurement {
+/// Normal deviates from a linear congruential generator and the formula of Box and Muller.
+pub struct Noise(pub u64);
+
+impl Noise {
+    fn uniform(&mut self) -> f64 {
+        self.0 = self
+            .0
+            .wrapping_mul(6364136223846793005)
+            .wrapping_add(1442695040888963407);
+        ((self.0 >> 11) as f64 + 0.5) / (1_u64 << 53) as f64
+    }
+
+    pub fn normal(&mut self) -> f64 {
+        (-2.0 * self.uniform().ln()).sqrt() * (TAU * self.uniform()).cos()
+    }
+}
+
+/// A measurement of the frequencies, each as it is read.
+pub fn measured(exact: &[Vec<f64>], mut read: impl FnMut(f64) -> f64) -> Measurement {
     let rows = SPEEDS.iter().zip(exact).map(|(rpm, exact)| {
-        let columns: Vec<_> = exact.iter().map(|hz| Some((hz + noise()).abs())).collect();
+        let columns: Vec<_> = exact.iter().map(|hz| Some(read(*hz).abs())).collect();
         Row::new(*rpm, &columns)
     });
     Measurement {

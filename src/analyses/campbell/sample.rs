@@ -276,6 +276,7 @@ fn measured() -> Measured {
     ];
     let row = |(rpm, frequencies): (f64, [f64; 4])| MeasuredRow {
         rpm,
+        diameters: None,
         frequencies_hz: frequencies.map(Some).to_vec(),
     };
     Measured {

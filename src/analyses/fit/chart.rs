@@ -8,14 +8,15 @@ use crate::page::figure::items::{Item, Line, Points, Shape};
 use crate::page::figure::palette::Hue;
 use crate::page::figure::style::{HAIRLINE, MEASURED_SIZE};
 
-/// Shapes and colours of the residuals of the lowest measured frequency of a speed, the second, and so on; from the
-/// fifth on they repeat. Shapes distinguish the marks in grey prints.
-const PLACES: [(Shape, Hue, &str); 4] = [
-    (Shape::Disc, Hue::Forward, "lowest"),
-    (Shape::Ring, Hue::Backward, "second"),
-    (Shape::Square, Hue::Divergence, "third"),
-    (Shape::Cross, Hue::Ink, "fourth, …"),
+/// Shapes and colours of the residuals of modes by their nodal diameters n. Shapes distinguish the marks in grey prints.
+const MODES: [(Shape, Hue, &str); 4] = [
+    (Shape::Disc, Hue::Forward, "n = 0"),
+    (Shape::Ring, Hue::Backward, "n = 1"),
+    (Shape::Square, Hue::Divergence, "n = 2"),
+    (Shape::Cross, Hue::Ink, "n ≥ 3"),
 ];
+/// Number of residuals of a speed that are side by side; further ones begin again from the left.
+const SIDE_BY_SIDE: usize = 4;
 const RESIDUAL_SIZE: f64 = 6.4;
 const LEFT_OUT_SIZE: f64 = 4.0;
 /// Distance of the residuals of a speed, which are side by side so that none hides another, relative to the axis.
@@ -138,25 +139,33 @@ fn after() -> Line {
 
 fn describe(r: &Residual) -> String {
     format!(
-        "{:.0} rpm\n{} Hz measured\n{:+.2} Hz computed",
+        "{:.0} rpm{}\n{} Hz measured\n{:+.2} Hz computed",
         r.rpm,
+        r.diameters.map_or(String::new(), |n| format!(", n = {n}")),
         r.measured_hz,
         off(r)
     )
 }
 
-/// The residuals of each place among the frequencies of a speed, with lines from zero.
+/// The entry of [`MODES`] for a residual.
+fn mode_of(r: &Residual) -> usize {
+    r.diameters.unwrap_or(usize::MAX).min(MODES.len() - 1)
+}
+
+/// The residuals of the modes, with lines from zero.
 fn residuals(shown: &[&Residual], last: f64) -> Vec<Item> {
     let zero = [[-ROOM * last, 0.0], [last, 0.0]];
     let mut items = vec![Item::Line(Line {
         width: HAIRLINE,
         ..Line::new(zero, Hue::Quiet, "")
     })];
-    for (place, (shape, hue, name)) in PLACES.into_iter().enumerate() {
-        let of_place = |r: &&&Residual| r.fitted && (r.place - 1) % PLACES.len() == place;
-        let own = || shown.iter().filter(of_place);
-        let aside = ASIDE * last * (place as f64 - 1.5);
-        let point = |r: &&Residual| [(r.rpm + aside).clamp(-ROOM * last, last), off(r)];
+    for (mode, (shape, hue, name)) in MODES.into_iter().enumerate() {
+        let own = || shown.iter().filter(|r| r.fitted && mode_of(r) == mode);
+        let point = |r: &&Residual| {
+            let middle = 0.5 * (SIDE_BY_SIDE - 1) as f64;
+            let aside = ASIDE * (((r.place - 1) % SIDE_BY_SIDE) as f64 - middle);
+            [(r.rpm + aside * last).clamp(-ROOM * last, last), off(r)]
+        };
         let sticks = own().flat_map(|r| {
             let [x, y] = point(r);
             [[x, 0.0], [x, y], [f64::NAN; 2]]
@@ -177,16 +186,16 @@ fn key(report: &FitReport, shown: &[&Residual]) -> Vec<Item> {
         .iter()
         .any(|r| !r.fitted)
         .then(|| Item::points_sample(LEFT_OUT_SIZE, Shape::Disc, Hue::Quiet, "not fitted"));
-    let deepest = report.residuals.iter().map(|r| r.place).max().unwrap_or(0);
-    let places = PLACES
+    let modes = MODES
         .into_iter()
-        .take(deepest)
-        .map(|(shape, hue, name)| Item::points_sample(RESIDUAL_SIZE, shape, hue, name));
+        .enumerate()
+        .filter(|(mode, _)| shown.iter().any(|r| r.fitted && mode_of(r) == *mode))
+        .map(|(_, (shape, hue, name))| Item::points_sample(RESIDUAL_SIZE, shape, hue, name));
     [measured]
         .into_iter()
         .chain(others)
         .chain([after(), before()].map(Item::Line))
-        .chain(places)
+        .chain(modes)
         .collect()
 }
 
@@ -196,8 +205,33 @@ mod tests {
 
     #[test]
     fn residuals_are_distinguished_without_colours() {
-        for (k, (shape, ..)) in PLACES.iter().enumerate() {
-            assert!(PLACES[..k].iter().all(|(other, ..)| other != shape));
+        for (k, (shape, ..)) in MODES.iter().enumerate() {
+            assert!(MODES[..k].iter().all(|(other, ..)| other != shape));
         }
+    }
+
+    #[test]
+    fn every_fitted_residual_has_the_mark_of_its_nodal_diameters() {
+        let json = include_str!("../../../tests/golden/reports/fit-paper.json");
+        let report: FitReport = serde_json::from_str(json).unwrap();
+        let [_, lower] = &chart(&report).panels[..] else {
+            panic!("the figure has two panels");
+        };
+        let marks = |name: &str| {
+            let count = |item: &Item| match item {
+                Item::Points(points) if points.name == name => points.x.len(),
+                _ => 0,
+            };
+            lower.items.iter().map(count).sum::<usize>()
+        };
+        let fitted = report.residuals.iter().filter(|r| r.fitted);
+        let found: Vec<usize> = fitted.map(|r| r.diameters.unwrap()).collect();
+        let of = |n: usize| found.iter().filter(|other| **other == n).count();
+        assert_eq!(
+            ["n = 0", "n = 1", "n = 2"].map(marks),
+            [of(0), of(1), of(2)]
+        );
+        let drawn: usize = MODES.iter().map(|(.., name)| marks(name)).sum();
+        assert_eq!(drawn, found.len());
     }
 }

@@ -52,6 +52,7 @@ impl Compared {
                 residuals.push(Residual {
                     rpm: row.rpm,
                     place: 1 + fitted.place(k).unwrap_or(*column),
+                    diameters: fitted.diameters(k),
                     measured_hz: *measured_hz,
                     before_hz: hz(&before),
                     fitted_hz: hz(&fitted),

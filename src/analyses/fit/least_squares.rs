@@ -123,8 +123,10 @@ pub fn at_bound(share: f64) -> bool {
 }
 
 /// Intervals and correlations by linear theory at the minimum: the covariance s² (JᵀJ)⁻¹ with s² = ‖r‖²/(m − p), and
-/// Student's distribution of m − p degrees of freedom (Seber and Wild, *Nonlinear Regression*, 1989, §5.1). Shares
-/// at a bound count as known.
+/// Student's distribution of m − p degrees of freedom (Seber and Wild, *Nonlinear Regression*, 1989, §5.1). The errors of
+/// high frequencies may be larger than those of low ones: where it is larger, the variance of HC3 counts, which assumes
+/// no equal errors, (JᵀJ)⁻¹ Jᵀ diag(r_i²/(1 − h_i)²) J (JᵀJ)⁻¹ with the leverages h_i (MacKinnon and White, *Journal of
+/// Econometrics* 29, 1985). Shares at a bound count as known.
 ///
 /// # Errors
 /// [`SpectrumError`] when an eigenproblem fails.
@@ -169,11 +171,27 @@ pub fn statistics(
         let terms = known.map(|i| vectors[(k, i)] * vectors[(l, i)] / values[i].powi(2));
         terms.sum::<f64>()
     };
+    let inverse = Mat::from_fn(free.len(), free.len(), inverse);
+    let by_residual = &inverse * unit.transpose();
+    // The residual that a frequency has if the numbers are fitted without it.
+    let left_out_hz: Vec<f64> = (0..residuals.len())
+        .map(|i| {
+            let leverage: f64 = (0..free.len())
+                .map(|k| unit[(i, k)] * by_residual[(k, i)])
+                .sum();
+            residuals[i] / (1.0 - leverage).max(DEPENDENT)
+        })
+        .collect();
     for k in (0..free.len()).filter(|&k| !loose[k]) {
-        let deviation = (variance * inverse(k, k)).sqrt() / lengths[k];
+        let of_equal = variance * inverse[(k, k)];
+        let moved = left_out_hz.iter().enumerate();
+        let of_unequal: f64 = moved
+            .map(|(i, hz)| (by_residual[(k, i)] * hz).powi(2))
+            .sum();
+        let deviation = of_equal.max(of_unequal).sqrt() / lengths[k];
         spread.half_widths[free[k]] = Some(quantile * deviation);
         for l in (0..free.len()).filter(|&l| !loose[l]) {
-            let together = inverse(k, l) / (inverse(k, k) * inverse(l, l)).sqrt();
+            let together = inverse[(k, l)] / (inverse[(k, k)] * inverse[(l, l)]).sqrt();
             spread.correlation[free[k]][free[l]] = together;
         }
     }

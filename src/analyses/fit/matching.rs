@@ -21,10 +21,8 @@ pub struct Tone {
 /// basis has none.
 pub fn matched(row: &Row, tones: &[Tone]) -> Vec<Option<usize>> {
     match row.columns {
-        Columns::Diameters => row
-            .pairs
-            .iter()
-            .map(|(diameters, hz)| nearest_of_lowest(tones, *diameters, *hz))
+        Columns::Diameters => (0..row.pairs.len())
+            .map(|measured| of_lowest_pair(row, measured, tones))
             .collect(),
         Columns::Ranks if row.rpm == 0.0 => with_twins(row, tones),
         Columns::Ranks => row
@@ -35,17 +33,23 @@ pub fn matched(row: &Row, tones: &[Tone]) -> Vec<Option<usize>> {
     }
 }
 
-/// Of the lowest two modes of a number of nodal diameters the one nearer to a frequency; of the umbrella mode there is
-/// one.
-fn nearest_of_lowest(tones: &[Tone], diameters: usize, hz: f64) -> Option<usize> {
+/// Of the lowest two modes with the nodal diameters of a measured frequency the nearer one, or, if both frequencies were
+/// measured, the one of its rank; of the umbrella mode there is one.
+fn of_lowest_pair(row: &Row, measured: usize, tones: &[Tone]) -> Option<usize> {
+    let (diameters, hz) = row.pairs[measured];
     let count = if diameters == 0 { 1 } else { 2 };
-    (0..tones.len())
+    let mut pair = (0..tones.len())
         .filter(|index| tones[*index].diameters == diameters)
-        .take(count)
-        .min_by(|one, other| {
-            let off = |index: &usize| (tones[*index].hz - hz).abs();
-            off(one).total_cmp(&off(other))
-        })
+        .take(count);
+    let twin = (0..row.pairs.len()).find(|k| *k != measured && row.pairs[*k].0 == diameters);
+    if let Some(twin) = twin {
+        let is_higher = (row.pairs[twin].1, twin) < (hz, measured);
+        return pair.nth(usize::from(is_higher));
+    }
+    pair.min_by(|one, other| {
+        let off = |index: &usize| (tones[*index].hz - hz).abs();
+        off(one).total_cmp(&off(other))
+    })
 }
 
 /// The ascending assignment of least squares in which a pair at rest counts for one measured frequency or for two; a blank
@@ -158,5 +162,20 @@ mod tests {
         let computed = tones(&[(124.0, 1), (124.4, 1), (127.0, 0), (153.0, 2), (700.0, 0)]);
         let row = Row::by_diameters(0.0, &[(0, 127.1), (1, 124.3), (2, 152.0), (3, 260.0)]);
         assert_eq!(matched(&row, &computed), [Some(2), Some(1), Some(3), None]);
+    }
+
+    /// Both frequencies are nearer to the upper one of a pair that a guide separates.
+    #[test]
+    fn two_columns_of_the_same_nodal_diameters_are_both_of_a_pair() {
+        let computed = tones(&[(118.0, 1), (124.0, 1), (127.0, 0), (153.0, 2)]);
+        let row =
+            |one: f64, other: f64| Row::by_diameters(0.0, &[(1, one), (0, 127.0), (1, other)]);
+        for (row, expected) in [
+            (row(122.0, 125.0), [0, 2, 1]),
+            (row(125.0, 122.0), [1, 2, 0]),
+            (row(124.0, 124.0), [0, 2, 1]),
+        ] {
+            assert_eq!(matched(&row, &computed), expected.map(Some));
+        }
     }
 }

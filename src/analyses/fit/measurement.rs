@@ -71,13 +71,23 @@ impl Row {
         self.pairs.last().map_or(0, |(place, _)| place + 1)
     }
 
-    /// Number of lowest modes among which those of the row are expected; at rest every wave but the umbrella mode is one of
-    /// a pair, and modes with nodal circles may lie below those of many diameters.
+    /// Number of lowest modes among which those of the row are expected. At rest every wave but the umbrella mode is one of
+    /// a pair. A nodal circle raises a frequency about as much as two diameters (Chladni's law), so that n²/2 modes are
+    /// below that of n diameters.
     pub(super) fn modes_needed(&self) -> usize {
         match self.columns {
             Columns::Ranks if self.rpm > 0.0 => self.depth(),
             Columns::Ranks => 2 * self.depth(),
-            Columns::Diameters => 4 * self.depth(),
+            Columns::Diameters => (self.most_diameters() + 3).pow(2),
+        }
+    }
+
+    /// Largest number of nodal diameters by which a frequency is named.
+    fn most_diameters(&self) -> usize {
+        let named = self.pairs.iter().map(|(diameters, _)| *diameters);
+        match self.columns {
+            Columns::Ranks => 0,
+            Columns::Diameters => named.max().unwrap_or(0),
         }
     }
 }
@@ -85,7 +95,14 @@ impl Row {
 impl Measurement {
     /// Reads the block `measured` of a scene.
     pub fn of_scene(measured: &Measured) -> Self {
-        let row = |row: &MeasuredRow| Row::new(row.rpm, &row.frequencies_hz);
+        let row = |row: &MeasuredRow| match &row.diameters {
+            None => Row::new(row.rpm, &row.frequencies_hz),
+            Some(diameters) => {
+                let named = diameters.iter().zip(&row.frequencies_hz);
+                let seen = named.filter_map(|(diameters, hz)| Some((*diameters as usize, (*hz)?)));
+                Row::by_diameters(row.rpm, &seen.collect::<Vec<_>>())
+            }
+        };
         Measurement {
             source: measured.source.clone(),
             rows: measured.rows.iter().map(row).collect(),
@@ -139,6 +156,11 @@ impl Measurement {
         self.rows.iter().map(|row| row.pairs.len()).sum()
     }
 
+    /// Largest number of nodal diameters by which a frequency is named.
+    pub(super) fn most_diameters(&self) -> usize {
+        self.rows.iter().map(Row::most_diameters).max().unwrap_or(0)
+    }
+
     /// Largest speed.
     pub fn top_rpm(&self) -> f64 {
         self.rows.iter().fold(0.0, |top, row| row.rpm.max(top))
@@ -153,23 +175,25 @@ impl Measurement {
         }
     }
 
-    /// The block `measured` of a scene with these data: rows in ascending speed, without empty ones. A scene has its
-    /// frequencies in ascending order, so that those by nodal diameters are sorted.
+    /// The block `measured` of a scene with these data: rows in ascending speed, without empty ones.
     pub fn as_scene_block(&self) -> Measured {
-        let row = |row: &Row| {
-            let mut frequencies_hz = vec![None; row.depth()];
-            for &(place, hz) in &row.pairs {
-                frequencies_hz[place] = Some(hz);
+        let row = |row: &Row| match row.columns {
+            Columns::Ranks => {
+                let mut frequencies_hz = vec![None; row.depth()];
+                for &(place, hz) in &row.pairs {
+                    frequencies_hz[place] = Some(hz);
+                }
+                MeasuredRow {
+                    rpm: row.rpm,
+                    diameters: None,
+                    frequencies_hz,
+                }
             }
-            if row.columns == Columns::Diameters {
-                let mut sorted: Vec<f64> = frequencies_hz.iter().copied().flatten().collect();
-                sorted.sort_by(f64::total_cmp);
-                frequencies_hz = sorted.into_iter().map(Some).collect();
-            }
-            MeasuredRow {
+            Columns::Diameters => MeasuredRow {
                 rpm: row.rpm,
-                frequencies_hz,
-            }
+                diameters: Some(row.pairs.iter().map(|(n, _)| *n as u32).collect()),
+                frequencies_hz: row.pairs.iter().map(|(_, hz)| Some(*hz)).collect(),
+            },
         };
         let seen = self.rows.iter().filter(|row| !row.pairs.is_empty());
         let mut rows: Vec<MeasuredRow> = seen.map(row).collect();
@@ -232,6 +256,7 @@ fn row(typed: &TableRow, diameters: Option<&[usize]>) -> Result<Row, FitError> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::model::analytical::annular_plate::{AnnularPlate, Bore};
 
     #[test]
     fn numbers_of_a_row_are_paired_in_ascending_order_with_the_places_that_hold_one() {
@@ -245,6 +270,38 @@ mod tests {
         assert_eq!(block.rows[0].frequencies_hz, first);
         assert_eq!(Measurement::of_scene(&block), table);
         assert_eq!(table.up_to(1999.0).rows.len(), 1);
+    }
+
+    #[test]
+    fn a_scene_keeps_the_nodal_diameters_of_a_table() {
+        let text = "n2,rpm,n0,n1,n1\n152.6,0,127.1,,124.3\n";
+        let table = Measurement::from_csv("taps", text).unwrap();
+        assert_eq!(table.rows[0].pairs, [(0, 127.1), (1, 124.3), (2, 152.6)]);
+        assert_eq!(Measurement::of_scene(&table.as_scene_block()), table);
+    }
+
+    /// A free disc, which has the most circles below a number of diameters, by its exact frequencies.
+    #[test]
+    fn the_modes_needed_include_those_of_the_named_diameters() {
+        let free = AnnularPlate {
+            bore: Bore::Free,
+            radius_ratio: 0.05,
+            poisson_ratio: 0.3,
+        };
+        for most in [2, 5, 9, 14] {
+            // The lowest elastic mode of n = 0 and 1 has a nodal circle.
+            let named = free.roots(most, 1)[0];
+            let below = |n: usize| {
+                free.roots(n, most)
+                    .iter()
+                    .filter(|root| **root <= named)
+                    .count()
+            };
+            let rigid = 3;
+            let modes: usize = rigid + below(0) + (1..=most).map(|n| 2 * below(n)).sum::<usize>();
+            let row = Row::by_diameters(0.0, &[(most, 100.0), (0, 40.0)]);
+            assert!(row.modes_needed() >= modes, "n = {most}: {modes} modes");
+        }
     }
 
     #[test]

@@ -30,6 +30,7 @@ mod labview;
 mod least_squares;
 mod matching;
 mod measurement;
+mod minima;
 mod model;
 mod options;
 mod outline;
@@ -54,15 +55,14 @@ use comparison::Compared;
 pub use error::FitError;
 use least_squares::{Found, at_bound, statistics};
 pub use measurement::{Columns, Measurement, Row};
+use minima::{EQUAL_HZ, equally_good};
 use model::Model;
 pub use options::Options;
-pub use report::{Curves, FitReport, FittedParameter, Residual, Start};
+pub use report::{Curves, FitReport, FittedParameter, Minimum, Residual, Start};
 use starts::{Searched, refined, search};
 
 /// Shares at which the effect of a number is examined.
 const LOOKED_AT: [f64; 3] = [0.1, 0.37, 0.83];
-/// A number whose changes move every measured frequency by less than this, in Hz, has no effect.
-const IDLE_HZ: f64 = 1e-5;
 /// Tolerance that suffices to compare starts and to find numbers without effect.
 const COARSE_TOLERANCE: f64 = 1e-2;
 
@@ -73,7 +73,7 @@ const BEYOND: f64 = 1.12;
 
 /// Fits the freed numbers p of a scene: minimizes Σ (f_k(p) − f̂_k)², with the k-th lowest computed
 /// frequency f_k of a row in Hz and the measured one f̂_k. Intervals follow from the linearized problem
-/// with Student's t; the covariance is (JᵀJ)⁻¹ times the variance of the residuals.
+/// with Student's t. Other minima that fit about as well are reported beside the best.
 ///
 /// # Errors
 /// [`FitError`] if the measurement does not determine the freed numbers, or no start between the bounds
@@ -93,6 +93,7 @@ pub fn fit(
             basis(scene, measurement, tolerance)?.saw.plate.resolution
         }
     };
+    let coarse = holding(coarse, measurement);
     let Parted {
         moving: freed,
         idle: without_effect,
@@ -118,11 +119,27 @@ pub fn fit(
             (chosen.saw.plate.resolution, Some(error))
         }
     };
+    let resolution = holding(resolution, measurement);
     let fine = model(resolution);
-    let best = refined(&fine, &candidates)?.unwrap_or_else(|| best_start.clone());
+    let mut reached = refined(&fine, &candidates)?;
+    if reached.is_empty() {
+        reached.push(best_start.clone());
+    }
+    let (best, others) = (&reached[0], &reached[1..]);
     let spread = statistics(&fine, &best.shares, options.confidence)?;
+    let equal = equally_good(best, others, &spread, options.confidence);
+    let other_minima = equal
+        .into_iter()
+        .map(|found| {
+            let own = statistics(&fine, &found.shares, options.confidence)?;
+            Ok(Minimum {
+                rms_hz: found.rms_hz,
+                parameters: parameters(scene, &freed, &found.shares, &own.half_widths)?,
+            })
+        })
+        .collect::<Result<_, FitError>>()?;
     let before = fine.residuals_of_saw_hz(scene)?;
-    let fitted = calibrated(scene, measurement, &freed, &best)?;
+    let fitted = calibrated(scene, measurement, &freed, best)?;
     let compared = Compared::new(scene, &fitted, resolution);
     let residuals = compared.residuals(measured, options.to_rpm)?;
     let deepest = residuals.iter().map(|r| r.place).max().unwrap_or(0);
@@ -136,6 +153,7 @@ pub fn fit(
         confidence: options.confidence,
         parameters: parameters(scene, &freed, &best.shares, &spread.half_widths)?,
         without_effect: without_effect.iter().map(path).collect(),
+        other_minima,
         correlation: spread.correlation,
         measured_frequencies: measurement.count(),
         degrees_of_freedom: spread.degrees_of_freedom,
@@ -194,7 +212,7 @@ fn parted(
     };
     let differ = |x: &Vec<f64>, y: &Vec<f64>| {
         let mut pairs = x.iter().zip(y);
-        pairs.any(|(x, y)| (x - y).abs() > IDLE_HZ)
+        pairs.any(|(x, y)| (x - y).abs() > EQUAL_HZ)
     };
     effective(scene, freed, &LOOKED_AT, residuals, differ)
 }
@@ -234,6 +252,15 @@ fn path(freed: &Freed) -> String {
 /// Root mean square of residuals.
 fn rms(residuals: &[f64]) -> f64 {
     (residuals.iter().map(|r| r * r).sum::<f64>() / residuals.len() as f64).sqrt()
+}
+
+/// A basis that also has the nodal diameters by which frequencies are named.
+fn holding(resolution: Resolution, measurement: &Measurement) -> Resolution {
+    let max_diameters = resolution.max_diameters.max(measurement.most_diameters());
+    Resolution {
+        max_diameters,
+        ..resolution
+    }
 }
 
 /// The basis for a tolerance up to the measured speeds.

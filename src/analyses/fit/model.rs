@@ -119,6 +119,7 @@ impl Model<'_> {
 /// The lowest modes of a saw at the speed of a row, assigned to its measured frequencies.
 pub struct Assigned {
     modes: Vec<Mode>,
+    tones: Vec<Tone>,
     found: Vec<Option<usize>>,
 }
 
@@ -133,12 +134,21 @@ impl Assigned {
             })
             .collect();
         let found = matched(row, &tones);
-        Ok(Assigned { modes, found })
+        Ok(Assigned {
+            modes,
+            tones,
+            found,
+        })
     }
 
     /// Place among the modes, from 0, of a measured frequency; `None` if the basis lacks it.
     pub fn place(&self, column: usize) -> Option<usize> {
         self.found[column]
+    }
+
+    /// Nodal diameters of the mode of a measured frequency.
+    pub fn diameters(&self, column: usize) -> Option<usize> {
+        Some(self.tones[self.place(column)?].diameters)
     }
 
     /// The mode of a measured frequency.

@@ -24,11 +24,21 @@ pub fn outline(report: &FitReport) -> Outline {
     let rms = FREQUENCY.fixed(3, report.rms_hz);
     let before = FREQUENCY.fixed(3, report.rms_before_hz);
     let deviation = Fact::new("deviation (rms)", rms).after(before);
-    let fitted = report
-        .parameters
-        .iter()
-        .map(|found| number(found, report.confidence));
-    text.facts("", std::iter::once(deviation).chain(fitted));
+    let numbers = |parameters: &[FittedParameter]| -> Vec<Fact> {
+        let each = parameters.iter();
+        each.map(|found| number(found, report)).collect()
+    };
+    text.facts(
+        "",
+        std::iter::once(deviation).chain(numbers(&report.parameters)),
+    );
+    for other in &report.other_minima {
+        let deviation = Fact::new("deviation (rms)", FREQUENCY.fixed(3, other.rms_hz));
+        text.facts(
+            "Another saw that fits about as well",
+            std::iter::once(deviation).chain(numbers(&other.parameters)),
+        );
+    }
     text.table(deviations(report));
     let reached = report.starts.iter().filter_map(|start| start.rms_hz);
     let best = reached.clone().fold(f64::INFINITY, f64::min);
@@ -44,11 +54,16 @@ pub fn outline(report: &FitReport) -> Outline {
 }
 
 /// A fitted number after its value in the scene, with its interval of confidence.
-fn number(found: &FittedParameter, confidence: f64) -> Fact {
-    let percent = 100.0 * confidence;
+fn number(found: &FittedParameter, report: &FitReport) -> Fact {
+    let percent = 100.0 * report.confidence;
+    let condition = if report.other_minima.is_empty() {
+        ""
+    } else {
+        " if it is this saw"
+    };
     let interval = match (found.interval_from, found.interval_to) {
         (Some(from), Some(to)) => format!(
-            "({percent:.0} % interval {} … {})",
+            "({percent:.0} % interval {} … {}{condition})",
             shown_to(5, from),
             shown_to(5, to)
         ),

@@ -12,14 +12,16 @@ use crate::modes::SpectrumError;
 use crate::modes::branches::Progress;
 
 /// Largest number of starts with different results that are refined.
-const REFINED: usize = 3;
+const REFINED: usize = 5;
+/// Results whose shares of the bounds differ by less than this are one minimum.
+const APART: f64 = 1e-2;
 /// Seed of the starts that are spread between the bounds.
 const SEED: u64 = 0;
 
 /// Results of minimizing from every start.
 pub struct Searched {
     pub starts: Vec<Start>,
-    /// The best few of different results, best first.
+    /// The best few minima, best first.
     pub candidates: Vec<Found>,
 }
 
@@ -59,30 +61,36 @@ pub fn search(
             rms_hz: found.as_ref().map(|f| f.rms_hz),
         })
         .collect();
-    let mut reached: Vec<Found> = found.into_iter().flatten().collect();
-    reached.sort_by(|x, y| x.rms_hz.total_cmp(&y.rms_hz));
-    let mut candidates: Vec<Found> = Vec::new();
-    for found in reached {
-        let apart = |other: &Found| {
-            let pairs = found.shares.iter().zip(&other.shares);
-            pairs.map(|(x, y)| (x - y).abs()).fold(0.0, f64::max) > 1e-2
-        };
-        if candidates.len() < REFINED && candidates.iter().all(apart) {
-            candidates.push(found);
-        }
-    }
+    let mut candidates = different(found);
+    candidates.truncate(REFINED);
     Ok(Searched { starts, candidates })
 }
 
-/// The best result of minimizing from candidates on a finer basis; `None` if none of them is a valid saw.
+/// One result of each minimum, best first.
+fn different(found: Vec<Option<Found>>) -> Vec<Found> {
+    let mut reached: Vec<Found> = found.into_iter().flatten().collect();
+    reached.sort_by(|x, y| x.rms_hz.total_cmp(&y.rms_hz));
+    let mut minima: Vec<Found> = Vec::new();
+    for found in reached {
+        let is_apart = |other: &Found| {
+            let pairs = found.shares.iter().zip(&other.shares);
+            pairs.map(|(x, y)| (x - y).abs()).fold(0.0, f64::max) > APART
+        };
+        if minima.iter().all(is_apart) {
+            minima.push(found);
+        }
+    }
+    minima
+}
+
+/// The minima reached from candidates on a finer basis, best first; none if no candidate is a valid saw there.
 ///
 /// # Errors
 /// [`SpectrumError`] when an eigenproblem fails.
-pub fn refined(model: &Model<'_>, candidates: &[Found]) -> Result<Option<Found>, SpectrumError> {
+pub fn refined(model: &Model<'_>, candidates: &[Found]) -> Result<Vec<Found>, SpectrumError> {
     let refined: Vec<Option<Found>> = candidates
         .par_iter()
         .map(|found| minimum(model, &found.shares))
         .collect::<Result<_, _>>()?;
-    let found = refined.into_iter().flatten();
-    Ok(found.min_by(|x, y| x.rms_hz.total_cmp(&y.rms_hz)))
+    Ok(different(refined))
 }

@@ -2,6 +2,9 @@
 //! order of the columns are determined from the table.
 
 use super::FitError;
+use crate::model::scene::quantity;
+
+const MAX_DIAMETERS: f64 = quantity("measured.rows[].diameters[]").allowed.to;
 
 /// A line of numbers or blanks: first the speed, then the frequencies in the order of their columns.
 #[derive(Debug, PartialEq)]
@@ -213,10 +216,8 @@ impl Header {
         if frequencies.iter().all(|column| place(column).is_some()) {
             frequencies.sort_by_key(place);
         }
-        let diameters = frequencies
-            .iter()
-            .map(|column| nodal_diameters(&names[*column]))
-            .collect();
+        let diameters = diameters_of_all(line, names, &frequencies)?;
+        check_named_apart(line, names, &frequencies, diameters.as_deref())?;
         Ok(Header {
             names: names.len(),
             speed,
@@ -224,6 +225,63 @@ impl Header {
             diameters,
         })
     }
+}
+
+/// The nodal diameters of the columns, if their names give them.
+fn diameters_of_all(
+    line: u64,
+    names: &[String],
+    frequencies: &[usize],
+) -> Result<Option<Vec<usize>>, FitError> {
+    let found: Vec<Option<usize>> = frequencies
+        .iter()
+        .map(|column| nodal_diameters(&names[*column]))
+        .collect();
+    if found.iter().all(Option::is_none) {
+        return Ok(None);
+    }
+    let most = MAX_DIAMETERS as usize;
+    for (column, diameters) in frequencies.iter().zip(&found) {
+        let problem = match diameters {
+            None => "no number of nodal diameters, as others are; call it n0, n1 and so on, or the others f1, f2".into(),
+            Some(n) if *n > most => format!("more than {most} nodal diameters; remove it"),
+            Some(_) => continue,
+        };
+        let name = &names[*column];
+        return Err(wrong(
+            line,
+            format!("column {} is {name:?}, {problem}", column + 1),
+        ));
+    }
+    Ok(found.into_iter().collect())
+}
+
+/// Refuses a number that names more columns than there are modes: two if it is a number of nodal diameters above zero,
+/// otherwise one.
+fn check_named_apart(
+    line: u64,
+    names: &[String],
+    frequencies: &[usize],
+    diameters: Option<&[usize]>,
+) -> Result<(), FitError> {
+    for (k, column) in frequencies.iter().enumerate() {
+        let number = |k: usize| match diameters {
+            Some(diameters) => Some(diameters[k] as u64),
+            None => last_number(&names[frequencies[k]]),
+        };
+        let (most, remedy) = match (diameters, number(k)) {
+            (_, None) => continue,
+            (Some(_), Some(0)) => (1, "there is one mode without nodal diameters"),
+            (Some(_), _) => (2, "a mode with nodal diameters has two frequencies at most"),
+            (None, _) => (1, "number the frequencies in ascending order"),
+        };
+        if (0..k).filter(|other| number(*other) == number(k)).count() == most {
+            let name = &names[*column];
+            let problem = format!("column {} is {name:?} once more; {remedy}", column + 1);
+            return Err(wrong(line, problem));
+        }
+    }
+    Ok(())
 }
 
 /// Whether the name of a column means the speed, in the languages of saw manufacturers.

@@ -57,6 +57,23 @@ fn what_could_mean_two_things_is_refused_with_its_line() {
         ("rpm,speed,f1\n0,0,9\n", 1, "2 of its columns"),
         ("rpm,f1\nrpm,kHz\n0,9\n", 1, "Hz"),
         ("datum,bemerkung\n1,2\n", 1, "neither"),
+        (
+            "rpm,f1,f2,f1\n0,9,12,9\n",
+            1,
+            "column 4 is \"f1\" once more",
+        ),
+        (
+            "rpm,n0,n1,n0\n0,9,12,9\n",
+            1,
+            "one mode without nodal diameters",
+        ),
+        ("rpm,n1,n1,n1\n0,9,12,9\n", 1, "two frequencies at most"),
+        (
+            "rpm,n0,n1,f3\n0,9,12,9\n",
+            1,
+            "no number of nodal diameters, as others are",
+        ),
+        ("rpm,n0,n301\n0,9,12\n", 1, "more than 300 nodal diameters"),
         ("1O00,9.2S\n2000,9\n", 0, ""),
     ] {
         match (read(text), expected) {

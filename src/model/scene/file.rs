@@ -174,6 +174,9 @@ pub struct Measured {
 pub struct MeasuredRow {
     /// Rotation speed.
     pub rpm: f64,
+    /// Number of nodal diameters of each frequency, for a row at rest. Without it the frequencies ascend from the lowest.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub diameters: Option<Vec<u32>>,
     /// Frequencies in the space-fixed frame, ascending; null for one that was not measured.
     pub frequencies_hz: Vec<Option<f64>>,
 }

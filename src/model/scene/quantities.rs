@@ -31,7 +31,7 @@ const STRESS: Span = Span::closed(-1e11, 1e11);
 /// built: diameters from 50 mm (slitting saws) to 4 m (stone saws), materials from aluminium to tungsten carbide, guides from
 /// felt to steel.
 #[rustfmt::skip]
-pub const QUANTITIES: [Quantity; 101] = [
+pub const QUANTITIES: [Quantity; 102] = [
     q("blade.outer_diameter_m", "outer diameter", "m", POSITIVE, 0.04, 5.0),
     q("blade.inner_diameter_m", "bore diameter", "m", POSITIVE, 0.003, 2.0),
     q("blade.thickness_m", "thickness of the blade", "m", POSITIVE, 1e-4, 0.04),
@@ -173,6 +173,7 @@ pub const QUANTITIES: [Quantity; 101] = [
     q("probe.radius_m", "radius of the probe", "m", POSITIVE, 0.005, 2.5).of_kind(Kind::Radius),
     q("probe.angle_deg", "angle of the probe", "°", ANGLE, -360.0, 360.0).of_kind(Kind::Angle),
     q("measured.rows[].rpm", "rotation speed", "rpm", SPEED, 0.0, 1e5),
+    q("measured.rows[].diameters[]", "number of nodal diameters", "", Span::closed(0.0, 300.0), 0.0, 60.0).of_kind(Kind::Count),
     q("measured.rows[].frequencies_hz[]", "frequency", "Hz", NOT_NEGATIVE, 0.0, 1e5),
 ];
 

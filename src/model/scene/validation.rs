@@ -7,7 +7,9 @@ use super::membrane::Membrane;
 use super::rule::{MAX_GUIDES, refuse};
 use super::speed_range::check_rise;
 use super::thickness::ThicknessProfile;
-use super::{Blade, Bore, ExcitationLine, Mount, RefusedValue, Scene, SceneError, SceneFile};
+use super::{
+    Blade, Bore, ExcitationLine, MeasuredRow, Mount, RefusedValue, Scene, SceneError, SceneFile,
+};
 use crate::page::text::shown;
 
 impl TryFrom<SceneFile> for Scene {
@@ -134,7 +136,8 @@ fn blade(file: &SceneFile) -> Result<Blade, SceneError> {
     })
 }
 
-/// Refuses a measured frequency that is not finite. JSON has null in its place, which means that it was not measured.
+/// Refuses a measured frequency that is not finite, and nodal diameters that do not belong to the frequencies of a row. JSON
+/// has null in place of a number that is not finite, which means that it was not measured.
 fn check_measured(file: &SceneFile) -> Result<(), SceneError> {
     for (index, row) in file.measured.iter().flat_map(|m| m.rows.iter()).enumerate() {
         let lost = |hz: &Option<f64>| hz.is_some_and(|hz| !hz.is_finite());
@@ -143,6 +146,40 @@ fn check_measured(file: &SceneFile) -> Result<(), SceneError> {
             let remedy = "give none where it was not measured";
             return Err(RefusedValue::new(key, "no finite number", "a frequency", remedy).into());
         }
+        if let Some(diameters) = &row.diameters {
+            check_diameters(&format!("measured.rows[{index}]"), row, diameters)?;
+        }
+    }
+    Ok(())
+}
+
+/// Refuses nodal diameters of a row that turns, of another number than the frequencies, or of more frequencies than such
+/// modes have.
+fn check_diameters(key: &str, row: &MeasuredRow, diameters: &[u32]) -> Result<(), SceneError> {
+    if row.rpm != 0.0 {
+        let remedy = "leave out diameters, and give the frequencies in ascending order, since rotation splits every pair";
+        let key = format!("{key}.rpm");
+        return Err(refuse(
+            &key,
+            row.rpm,
+            "0 for frequencies with diameters",
+            remedy,
+        ));
+    }
+    let (given, expected) = (diameters.len(), row.frequencies_hz.len());
+    if given != expected {
+        let allowed = format!("{expected} numbers, one for each of frequencies_hz");
+        let remedy = "give the nodal diameters of every frequency, or of none";
+        return Err(RefusedValue::new(format!("{key}.diameters"), given, allowed, remedy).into());
+    }
+    for (k, n) in diameters.iter().enumerate() {
+        let most = if *n == 0 { 1 } else { 2 };
+        if diameters[..k].iter().filter(|other| *other == n).count() == most {
+            let key = format!("{key}.diameters[{k}]");
+            let allowed = "0 once, and other numbers twice at most";
+            let remedy = "leave out other frequencies: a mode without nodal diameters is single, others are pairs";
+            return Err(refuse(&key, f64::from(*n), allowed, remedy));
+        }
     }
     Ok(())
 }
@@ -150,6 +187,33 @@ fn check_measured(file: &SceneFile) -> Result<(), SceneError> {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn measured_diameters_belong_to_the_frequencies_of_a_row_at_rest() {
+        for (rpm, diameters, said) in [
+            (0.0, vec![1, 0, 1], None),
+            (300.0, vec![0, 1, 2], Some("measured.rows[0].rpm must be 0")),
+            (0.0, vec![0, 1], Some("must be 3 numbers")),
+            (0.0, vec![1, 1, 1], Some("diameters[2] must be 0 once")),
+            (0.0, vec![0, 2, 0], Some("diameters[2] must be 0 once")),
+        ] {
+            let found = with(|file| {
+                let rows = &mut file.measured.as_mut().unwrap().rows;
+                rows.truncate(1);
+                rows[0].rpm = rpm;
+                rows[0].frequencies_hz = vec![Some(10.0), Some(12.0), None];
+                rows[0].diameters = Some(diameters);
+            });
+            let error = found.err().map(|error| error.to_string());
+            match said {
+                None => assert_eq!(error, None),
+                Some(said) => assert!(
+                    error.as_ref().is_some_and(|e| e.contains(said)),
+                    "{error:?}"
+                ),
+            }
+        }
+    }
 
     fn with(change: impl FnOnce(&mut SceneFile)) -> Result<Scene, SceneError> {
         Scene::paper().edited(change)
