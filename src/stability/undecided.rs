@@ -13,7 +13,7 @@ pub struct UndecidedEdge {
 
 impl Analysis {
     /// The nearest edge of a band that counts, if its estimated error exceeds its distance from a speed. The ends of the sweep are no
-    /// edges.
+    /// edges, and neither are the speeds at which the growth in a damped band reaches the threshold: they have no estimated error.
     pub(crate) fn undecided(&self, speed_rad_per_s: f64) -> Option<UndecidedEdge> {
         let estimates = self.estimates.as_ref()?;
         let threshold = self.scene.flutter_threshold_per_s();
@@ -21,7 +21,8 @@ impl Analysis {
         let edges = bands.flat_map(|(band, error)| {
             let counted = band.counted(threshold).into_iter();
             let ends = counted.flat_map(|stretch| stretch.ends());
-            ends.filter_map(|edge| {
+            let own = ends.filter(|edge| band.range().ends().contains(edge));
+            own.filter_map(|edge| {
                 Some(UndecidedEdge {
                     edge_rad_per_s: edge,
                     error_rad_per_s: error.speed? * edge,

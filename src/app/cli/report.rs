@@ -11,7 +11,7 @@ use super::progress::watched;
 pub const EXAMPLES: &str = "\
 Examples:
   sawflutter report my-saw.json --out my-saw   # then open my-saw/report.html
-  sawflutter report my-saw.json --customer \"A. Miller\" --date 2027-01-15
+  sawflutter report my-saw.json --customer Miller --date 2027-01-15
   sawflutter report my-saw.json --accuracy draft # faster
   sawflutter report my-saw.json --json | jq .speeds
 
