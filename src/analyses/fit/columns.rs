@@ -2,22 +2,12 @@
 
 use super::FitError;
 use super::labview::Labview;
+use super::number_column::NumberColumn;
 use super::table::{Record, Separator, has_decimal_comma, number, wrong};
 use super::titles::Titles;
 
 /// Names of columns with remarks on some rows.
 const REMARKS: [&str; 3] = ["comment", "kommentar", "commentaire"];
-
-/// A column of a table.
-#[derive(Debug, PartialEq)]
-pub struct NumberColumn {
-    /// Name; "column 2" without one.
-    pub name: String,
-    /// Unit; empty without one.
-    pub unit: String,
-    /// Numbers, one for each row, all finite.
-    pub numbers: Vec<f64>,
-}
 
 /// Reads a table of numbers. Names, and units below them, are optional, also in a comment directly above the numbers;
 /// other lines that begin with # are ignored, and so are blank columns and remarks. The header of a LabVIEW file gives

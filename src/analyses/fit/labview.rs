@@ -1,7 +1,7 @@
 //! Header of a LabVIEW measurement file (.lvm). Its fields are those of the columns at the same places.
 
 use super::FitError;
-use super::columns::NumberColumn;
+use super::number_column::NumberColumn;
 use super::table::{Separator, wrong};
 
 const BEGIN: &str = "LabVIEW Measurement";
