@@ -130,7 +130,11 @@ class Cluster(Place):
         super().__init__(client, text, pure=False)
 
     def workers(self) -> int:
-        return max(1, int(sum(self.executor.nthreads().values())))
+        try:
+            threads = self.executor.nthreads()
+        except OSError as error:
+            raise BrokenExecutor(f"the connection to the scheduler is closed: {error}") from error
+        return max(1, int(sum(threads.values())))
 
     def check(self) -> None:
         # A function of this package can be sent only to a worker that can import it, but the name
