@@ -45,7 +45,7 @@ nb_execution_mode = "cache" if "SAWFLUTTER_NOTEBOOKS" in os.environ else "force"
 nb_execution_cache_path = os.environ.get("SAWFLUTTER_NOTEBOOKS", "")
 nb_execution_in_temp = True
 nb_execution_raise_on_error = True
-nb_execution_timeout = 120
+nb_execution_timeout = 300
 nb_merge_streams = True
 
 autodoc_member_order = "bysource"
