@@ -25,8 +25,8 @@ mod static_deflection;
 use faer::Scale;
 
 use crate::analyses::campbell::{InstabilityBand, Numbered, add_amplitudes, lifting_off, sharper};
-use crate::analyses::deflect::compliance_m_per_n;
-use crate::model::scene::{Polar, Scene, SceneError, SpeedRange, rpm};
+use crate::analyses::deflect::PointLoad;
+use crate::model::scene::{Scene, SceneError, SpeedRange, rpm};
 use crate::modes::SpectrumError;
 use crate::motion::stretched_blade::StretchedError;
 use crate::motion::stretched_blade::{Rise, saturations};
@@ -38,7 +38,7 @@ use criteria::{of_gaps, without_stiffness};
 pub(crate) use limits::RIM_LIMIT_M_PER_S;
 pub use limits::{Limits, LimitsFile};
 pub use report::{CheckReport, Criterion, RimStiffness};
-use rim::point_load_plate;
+use rim::{point_load_plate, rim_at_cut};
 pub(crate) use rim::{rim_stiffness_at_rest_n_per_m, side_force_factor};
 use static_deflection::StaticDeflection;
 
@@ -96,9 +96,11 @@ pub fn check(scene: &Scene, limits: &Limits) -> Result<CheckReport, CheckError> 
     let is_free = components.any(|component| !component.full.free_rigid.is_empty());
     criteria.extend(is_free.then(|| without_stiffness(operating)));
     // Nothing resists a side force where rigid motions are free, or where K(Ω) is singular.
+    let side_force = PointLoad::new(plate, rim_at_cut(scene));
     let stiffness = |speed: f64| {
-        let compliance =
-            compliance_m_per_n(plate, Polar::new(plate.blade.outer_radius_m, angle), speed);
+        let compliance = side_force
+            .as_ref()
+            .and_then(|force| force.compliance_m_per_n(speed));
         compliance.map_or(0.0, |m_per_n| 1.0 / m_per_n)
     };
     let to_rad_per_s = analysis.range_rad_per_s.to_rad_per_s;

@@ -1,7 +1,7 @@
 //! Lateral stiffness of a point of the rim at the middle of the cut, while the saw turns below a force fixed in
 //! space.
 
-use crate::analyses::deflect::compliance_m_per_n;
+use crate::analyses::deflect::PointLoad;
 use crate::model::plate::{Plate, Resolution};
 use crate::model::scene::{Polar, Scene};
 use crate::stability::{Analysis, StabilityState};
@@ -29,38 +29,39 @@ pub(super) fn point_load_plate(analysis: &Analysis) -> Plate {
 }
 
 /// The rim at the cut.
-fn rim_at_cut(scene: &Scene) -> Polar {
+pub(super) fn rim_at_cut(scene: &Scene) -> Polar {
     Polar::new(scene.blade().outer_radius_m, scene.cut_angle_rad())
+}
+
+/// A side force on the rim at the cut; `None` if rigid motions are free.
+fn side_force(analysis: &Analysis) -> Option<PointLoad> {
+    PointLoad::new(&point_load_plate(analysis), rim_at_cut(&analysis.scene))
 }
 
 /// Lateral stiffness at rest, in N/m; `None` if rigid motions are free.
 pub(crate) fn rim_stiffness_at_rest_n_per_m(analysis: &Analysis) -> Option<f64> {
-    let compliance = compliance_m_per_n(
-        &point_load_plate(analysis),
-        rim_at_cut(&analysis.scene),
-        0.0,
-    )?;
-    Some(1.0 / compliance)
+    Some(1.0 / side_force(analysis)?.compliance_m_per_n(0.0)?)
 }
 
 /// Deflection of the rim at the cut under a constant side force there, relative to that at rest: φᵀK(Ω)⁻¹φ /
 /// φᵀK(0)⁻¹φ, negative above a critical speed whose wave dominates, where the blade moves against the force.
 ///
-/// Only for a stable saw; `None` elsewhere, if rigid motions are free, and if the estimated error of the nearest critical speed is
-/// more than a tenth of the distance from it.
+/// Only for a stable saw; `None` elsewhere, if rigid motions are free, and if the estimated error of a critical speed within 5 % is
+/// unknown, or is more than a tenth of the distance from it.
 pub(crate) fn side_force_factor(analysis: &Analysis, speed_rad_per_s: f64) -> Option<f64> {
-    let critical = analysis.model.critical.iter();
-    let distance = critical
-        .map(|critical| (speed_rad_per_s / critical.speed_rad_per_s - 1.0).abs())
-        .fold(f64::INFINITY, f64::min);
-    let error = analysis.estimated_relative_error.unwrap_or(0.0);
-    let is_stable = analysis.verdict(speed_rad_per_s).state == StabilityState::Stable;
-    if !is_stable || error > DISTANCE_ERROR * distance {
+    let verdict = analysis.verdict(speed_rad_per_s);
+    if verdict.state != StabilityState::Stable {
         return None;
     }
-    let (plate, place) = (point_load_plate(analysis), rim_at_cut(&analysis.scene));
-    let at = |speed: f64| compliance_m_per_n(&plate, place, speed);
-    Some(at(speed_rad_per_s)? / at(0.0)?)
+    if let Some(place) = verdict.critical {
+        let critical = &analysis.model.critical[place];
+        let distance = (speed_rad_per_s / critical.speed_rad_per_s - 1.0).abs();
+        if analysis.estimated_relative_error? > DISTANCE_ERROR * distance {
+            return None;
+        }
+    }
+    let force = side_force(analysis)?;
+    Some(force.compliance_m_per_n(speed_rad_per_s)? / force.compliance_m_per_n(0.0)?)
 }
 
 #[cfg(test)]
@@ -89,7 +90,8 @@ mod tests {
         let plate = point_load_plate(&analysis);
         let system = GyroscopicSystem::of_plate(&plate);
         let point = at_point(&plate, rim_at_cut(&saw));
-        let at_rest = compliance_m_per_n(&plate, rim_at_cut(&saw), 0.0).unwrap();
+        let force = PointLoad::new(&plate, rim_at_cut(&saw)).unwrap();
+        let at_rest = force.compliance_m_per_n(0.0).unwrap();
         let waves = crate::modes::critical_speeds(&system).unwrap();
         let critical = waves[0].speed_rad_per_s;
         let lowest = waves
@@ -103,7 +105,7 @@ mod tests {
             .sum();
         let sides = [0.997, 1.003].map(|ratio| {
             let one_wave = 1.0 / (1.0 - ratio * ratio);
-            let at = compliance_m_per_n(&plate, rim_at_cut(&saw), ratio * critical);
+            let at = force.compliance_m_per_n(ratio * critical);
             (at.unwrap() / at_rest, one_wave * share / at_rest)
         });
         let [below, above] = sides;

@@ -32,7 +32,7 @@ mod tests;
 pub use error::DeflectError;
 pub use options::Options;
 pub(crate) use outline::outline;
-pub(crate) use point_load::compliance_m_per_n;
+pub(crate) use point_load::PointLoad;
 pub use report::{Arc, DeflectReport, EquilibriumCurve, Jump, SlowSweep, Turn};
 
 use crate::model::scene::Scene;

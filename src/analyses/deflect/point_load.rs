@@ -1,5 +1,6 @@
 //! Deflection of a blade at rest under a force at a point, and its error on a basis.
 
+use faer::Col;
 use faer::linalg::solvers::Solve;
 
 use crate::model::plate::Plate;
@@ -8,17 +9,35 @@ use crate::model::system::GyroscopicSystem;
 use crate::motion::transient::at_point;
 use crate::stability::ahead;
 
-/// φᵀ K(Ω)⁻¹ φ in m/N with the basis functions φ at a place, a radius in m and an angle in rad: deflection over force at a point fixed in space
-/// while the saw turns. `None` if rigid motions are free, and where K(Ω) is singular.
-pub(crate) fn compliance_m_per_n(plate: &Plate, place: Polar, speed_rad_per_s: f64) -> Option<f64> {
-    let point = at_point(plate, place);
-    let system = GyroscopicSystem::of_plate(plate);
-    if !system.free_rigid.is_empty() {
-        return None;
+/// A force at a point fixed in space while the saw turns.
+pub(crate) struct PointLoad {
+    system: GyroscopicSystem,
+    /// φ, the basis functions at the point.
+    point: Col<f64>,
+}
+
+impl PointLoad {
+    /// A force at a place, a radius in m and an angle in rad; `None` if rigid motions are free.
+    pub fn new(plate: &Plate, place: Polar) -> Option<Self> {
+        let system = GyroscopicSystem::of_plate(plate);
+        let point = at_point(plate, place);
+        system
+            .free_rigid
+            .is_empty()
+            .then_some(PointLoad { system, point })
     }
-    let stiffness = system.stiffness_at(speed_rad_per_s);
-    let compliance = point.transpose() * stiffness.partial_piv_lu().solve(&point);
-    Some(compliance).filter(|m_per_n| m_per_n.is_finite())
+
+    /// φᵀ K(Ω)⁻¹ φ, deflection over force at the point; `None` where K(Ω) is singular.
+    pub fn compliance_m_per_n(&self, speed_rad_per_s: f64) -> Option<f64> {
+        let factor = self.system.stiffness_at(speed_rad_per_s).partial_piv_lu();
+        let compliance = self.point.transpose() * factor.solve(&self.point);
+        Some(compliance).filter(|m_per_n| m_per_n.is_finite())
+    }
+}
+
+/// Compliance at rest at a place.
+fn at_rest_m_per_n(plate: &Plate, place: Polar) -> Option<f64> {
+    PointLoad::new(plate, place)?.compliance_m_per_n(0.0)
 }
 
 /// Estimated relative error of the compliance at rest on the basis of a plate. `None` if the blade is not held, or
@@ -29,8 +48,8 @@ pub(crate) fn compliance_m_per_n(plate: &Plate, place: Polar, speed_rad_per_s: f
 /// known part of it.
 pub(super) fn basis_error(scene: &Scene, plate: &Plate, place: Polar) -> Option<f64> {
     let larger = ahead(plate.resolution);
-    let own = compliance_m_per_n(plate, place, 0.0)?;
-    let more = compliance_m_per_n(&Plate::new(scene, larger), place, 0.0)?;
+    let own = at_rest_m_per_n(plate, place)?;
+    let more = at_rest_m_per_n(&Plate::new(scene, larger), place)?;
     let left_out = (plate.max_diameters() as f64 / larger.max_diameters as f64).powi(2);
     // The larger basis contains the smaller one: the compliance of a blade that is not buckled rises.
     let missing = (1.0 - own / more) / (1.0 - left_out);
@@ -59,7 +78,7 @@ mod tests {
     fn the_error_of_the_compliance_is_estimated_within_a_factor_of_two() {
         for (name, saw) in saws() {
             let place = Polar::new(saw.blade().outer_radius_m, PI);
-            let of = |plate: &Plate| compliance_m_per_n(plate, place, 0.0).unwrap();
+            let of = |plate: &Plate| at_rest_m_per_n(plate, place).unwrap();
             let exact = of(&Plate::new(&saw, basis(40, 18)));
             for size in [basis(12, 7), basis(14, 9)] {
                 let plate = Plate::new(&saw, size);
