@@ -223,7 +223,7 @@ passed_on! {
     TransientError: Scene, failed;
     GapError: Refused Scene Analysis Spectrum Stretched;
     ResponseError: Refused Scene Analysis Spectrum;
-    DesignError: Scene Analysis Sensitivity Response Gap;
+    DesignError: Scene Analysis Spectrum Sensitivity Response Gap;
     DeflectError: Refused Scene Analysis, failed;
     CheckError: Scene Analysis Spectrum Stretched;
 }

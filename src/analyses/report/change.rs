@@ -7,6 +7,7 @@ use super::decisive_speed::DecidedSpeed;
 use super::error::DesignError;
 use crate::analyses::campbell::Report;
 use crate::model::scene::{Kind, Parameter, Quantity, Scene, SpeedRange, rpm};
+use crate::modes::Cancellation;
 use crate::stability::Onsets;
 
 /// Number of changes in a report.
@@ -30,7 +31,8 @@ pub struct Change {
 }
 
 impl Change {
-    /// The changes that raise a speed most by the sensitivities of an analysis, computed over its range of speeds.
+    /// The changes that raise a speed most by the sensitivities of an analysis, computed over its range of speeds. A change that does not
+    /// raise it, or that makes a saw that the scene or the analysis refuses, is left out.
     pub(super) fn best(
         scene: &Scene,
         range: SpeedRange,
@@ -45,17 +47,25 @@ impl Change {
             let (Some(percent), Some(step)) = (percent, step(&parameter, value)) else {
                 continue;
             };
-            let gain = percent.abs() * step / sensitivity.step(value);
-            candidates.push((gain, parameter, [value, value + step * percent.signum()]));
+            let slope = percent / sensitivity.step(value);
+            let to = value + step * slope.signum();
+            candidates.push((step * slope.abs(), parameter, [value, to]));
         }
         candidates.sort_by(|x, y| y.0.total_cmp(&x.0));
         let mut changes = Vec::new();
         for (_, parameter, [from, to]) in candidates {
-            // A value that the scene refuses is no change that a shop can make.
-            let Ok(changed) = scene.file().with(&[(&parameter, to)]) else {
+            Cancellation::current().check()?;
+            let changed = scene.file().with(&[(&parameter, to)]);
+            let Ok(changed) = changed.and_then(|changed| changed.swept(range)) else {
                 continue;
             };
-            let onsets = Onsets::new(&changed.swept(range)?)?;
+            let Ok(onsets) = Onsets::new(&changed) else {
+                continue;
+            };
+            let before = raised.rpm(report).unwrap_or(0.0);
+            if raised.of_onsets(&onsets) <= before {
+                continue;
+            }
             changes.push(Change {
                 path: parameter.path().to_owned(),
                 from,
@@ -71,7 +81,7 @@ impl Change {
     }
 }
 
-/// Step of a number that a shop can make: 0.2 mm of the thickness, 10 mm of a guide's radius, 5° of its angle, half of its stiffness, a fifth
+/// Step of a number that a shop can make: 0.2 mm of the thickness, at most a tenth of it, 10 mm of a guide's radius, 5° of its angle, half of its stiffness, a fifth
 /// of the roll tension. `None` for what a shop does not change, such as the material.
 fn step(parameter: &Parameter, value: f64) -> Option<f64> {
     let path = parameter.path();
@@ -79,7 +89,7 @@ fn step(parameter: &Parameter, value: f64) -> Option<f64> {
         Kind::GuideRadius => Some(0.01),
         Kind::Angle => Some(5.0),
         Kind::Stiffness => Some(0.5 * value),
-        _ if path == "blade.thickness_m" => Some(2e-4),
+        _ if path == "blade.thickness_m" => Some(f64::min(2e-4, 0.1 * value)),
         _ if path.ends_with(".eigenstrain") || path.ends_with(".groove_depth_m") => {
             Some(0.2 * value.abs())
         }

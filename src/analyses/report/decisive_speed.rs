@@ -5,7 +5,8 @@ use serde::{Deserialize, Serialize};
 
 use crate::analyses::campbell::{Report, Sensitivity};
 use crate::analyses::place::Tolerances;
-use crate::model::scene::Parameter;
+use crate::model::scene::{Parameter, rpm};
+use crate::stability::Onsets;
 
 /// A speed that decides on a saw.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
@@ -18,12 +19,14 @@ pub enum DecidedSpeed {
 }
 
 impl DecidedSpeed {
-    /// The speed that a change of the saw should raise: the flutter speed if the saw runs above the 85 % rule and flutters within the
-    /// sweep, else the first critical speed.
+    /// The speed that a change of the saw should raise: the flutter speed if the saw runs above the 85 % rule and the effects of changes on
+    /// it are known, else the first critical speed.
     pub(super) fn to_raise(report: &Report) -> Self {
         let operating = report.operating.as_ref();
         let breaks_rule = operating.is_some_and(|operating| operating.within_limit == Some(false));
-        if breaks_rule && report.flutter_speed_rpm.is_some() {
+        let mut sensitivities = report.sensitivities.iter();
+        let is_known = sensitivities.any(|by| DecidedSpeed::Flutter.percent(report, by).is_some());
+        if breaks_rule && is_known {
             DecidedSpeed::Flutter
         } else {
             DecidedSpeed::FirstCritical
@@ -39,11 +42,20 @@ impl DecidedSpeed {
     }
 
     /// Its value in a diagram, in rpm; `None` if the sweep has none.
-    fn rpm(self, report: &Report) -> Option<f64> {
+    pub(super) fn rpm(self, report: &Report) -> Option<f64> {
         match self {
             DecidedSpeed::FirstCritical => report.critical_speeds.first().map(|first| first.rpm),
             DecidedSpeed::Flutter => report.flutter_speed_rpm,
         }
+    }
+
+    /// Its value for a saw without a diagram, in rpm; infinite if it has none.
+    pub(super) fn of_onsets(self, onsets: &Onsets) -> f64 {
+        let found = match self {
+            DecidedSpeed::FirstCritical => onsets.lowest_critical_rad_per_s,
+            DecidedSpeed::Flutter => onsets.flutter_speed_rad_per_s,
+        };
+        found.map_or(f64::INFINITY, rpm)
     }
 
     /// Its relative change by a sensitivity, in percent.

@@ -3,6 +3,7 @@
 use crate::analyses::gap::GapError;
 use crate::analyses::response::ResponseError;
 use crate::model::scene::SceneError;
+use crate::modes::SpectrumError;
 use crate::stability::{AnalysisError, SensitivityError};
 
 /// Reason for which the report of a saw could not be computed.
@@ -14,6 +15,9 @@ pub enum DesignError {
     /// The saw could not be analysed.
     #[error(transparent)]
     Analysis(#[from] AnalysisError),
+    /// The computation was cancelled.
+    #[error(transparent)]
+    Spectrum(#[from] SpectrumError),
     /// The effects of the numbers of the scene could not be computed.
     #[error(transparent)]
     Sensitivity(#[from] SensitivityError),

@@ -22,7 +22,7 @@ use serde::{Deserialize, Serialize};
 use super::campbell::{Report, Sensitivity};
 use super::gap::{self, GapReport, gap};
 use super::response::{self, ResponseReport};
-use crate::model::scene::{Scene, SceneFile, rpm};
+use crate::model::scene::{Scene, SceneFile};
 use crate::stability::Analysis;
 
 /// Words on the page, which influence no number.
@@ -74,7 +74,8 @@ pub struct DesignReport {
 /// [`DesignError`].
 pub fn report(scene: &Scene, options: &Options) -> Result<DesignReport, DesignError> {
     let still = scene.idling()?;
-    let cutting = in_cut(scene)?;
+    let cutting = scene.cutting_rpm().map(|rpm| scene.charted_in_cut(rpm));
+    let cutting = cutting.transpose()?;
     let analysed = |scene: &Scene| -> Result<(Analysis, Report), DesignError> {
         let analysis = Analysis::new(scene)?;
         let mut report = analysis.report();
@@ -89,11 +90,12 @@ pub fn report(scene: &Scene, options: &Options) -> Result<DesignReport, DesignEr
         None => (&analysis, &idling),
     };
     let response = response::of_analysis(deciding_analysis, &response::Options::default())?;
-    let speeds = [Some(&idling), cut.as_ref().map(|(_, report)| report)]
-        .into_iter()
-        .flatten()
-        .flat_map(DecisiveSpeed::of)
-        .collect();
+    let reports = || {
+        [&idling]
+            .into_iter()
+            .chain(cut.iter().map(|(_, report)| report))
+    };
+    let speeds = reports().flat_map(DecisiveSpeed::of).collect();
     let raised = DecidedSpeed::to_raise(deciding);
     let changes = Change::best(
         deciding_scene,
@@ -110,13 +112,10 @@ pub fn report(scene: &Scene, options: &Options) -> Result<DesignReport, DesignEr
         Some((_, report)) => format!("idling, and {}", report.condition),
         None => idling.condition.clone(),
     };
-    let reports = [
-        Some(&idling.warnings),
-        cut.as_ref().map(|(_, report)| &report.warnings),
-    ];
     let mut warnings: Vec<String> = Vec::new();
-    let all = reports.into_iter().flatten().chain([&response.warnings]);
-    for warning in all.chain(gap.iter().map(|gap| &gap.warnings)).flatten() {
+    let analysed = reports().map(|report| &report.warnings);
+    let others = gap.iter().map(|gap| &gap.warnings);
+    for warning in analysed.chain([&response.warnings]).chain(others).flatten() {
         if !warnings.contains(warning) {
             warnings.push(warning.clone());
         }
@@ -137,17 +136,6 @@ pub fn report(scene: &Scene, options: &Options) -> Result<DesignReport, DesignEr
         gap,
         warnings,
     })
-}
-
-/// The scene under the forces of its cut at the operating speed, or else at the first speed of the cut; `None` without a cut.
-fn in_cut(scene: &Scene) -> Result<Option<Scene>, DesignError> {
-    let Some(cut) = scene.cut() else {
-        return Ok(None);
-    };
-    let operating = scene.operating_rad_per_s().map(rpm);
-    let speed = operating.or(cut.runs.first().map(|run| run.rpm));
-    let charted = speed.map(|rpm| scene.charted_in_cut(rpm));
-    Ok(charted.transpose()?)
 }
 
 #[cfg(test)]
@@ -225,5 +213,24 @@ mod tests {
                     .is_none_or(|rpm| rpm > cut.flutter_speed_rpm.unwrap())
             );
         }
+    }
+
+    /// Rolling inwards lowers the first critical speed of this blade, so that less of it raises the speed.
+    #[test]
+    fn a_change_of_a_negative_number_goes_the_way_that_raises_the_speed() {
+        let saw = Scene::from_json(
+            r#"{"name": "rolled", "accuracy": "draft", "operating_rpm": 3000,
+                "blade": {"outer_diameter_m": 0.4, "inner_diameter_m": 0.1, "thickness_m": 0.0022, "material":
+                    {"youngs_modulus_pa": 2.1e11, "poisson_ratio": 0.3, "density_kg_per_m3": 7850}},
+                "mount": {"kind": "collar", "diameter_m": 0.13, "in_plane": "fixed"},
+                "membrane": {"roll_tension": [{"radius_m": 0.14, "width_m": 0.02, "eigenstrain": -8e-4}]}}"#,
+        );
+        let found = report(&saw.unwrap(), &Options::default()).unwrap();
+        let mut changes = found.changes.iter();
+        let rolling = changes
+            .find(|change| change.path.ends_with("eigenstrain"))
+            .unwrap();
+        assert!((rolling.to + 6.4e-4).abs() < 1e-12, "{rolling:?}");
+        assert!(rolling.critical_rpm > found.speeds[0].rpm, "{rolling:?}");
     }
 }

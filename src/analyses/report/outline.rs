@@ -60,7 +60,10 @@ fn speeds(report: &DesignReport) -> Table {
             SPEED.fixed(0, decisive.rpm),
             decisive
                 .margin_rpm
-                .map_or(Value::Missing, |rpm| format!("{rpm:+.0}").into()),
+                // Adding zero makes −0 a 0.
+                .map_or(Value::Missing, |rpm| {
+                    format!("{:+.0}", rpm.round() + 0.0).into()
+                }),
             decisive
                 .tolerance_rpm
                 .map_or(Value::Missing, |rpm| format!("± {rpm:.0}").into()),

@@ -146,12 +146,10 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<()> {
 /// The scene charted under the forces of its cut at a speed; by default at its operating speed, or at the first
 /// speed of its cut.
 fn in_cut(scene: &Scene, rpm: Option<f64>) -> anyhow::Result<Scene> {
-    let cut = scene.cut().context(
+    scene.cut().context(
         "--in-cut is given, but the scene has no cut; write its forces into the scene, see `sawflutter schema`",
     )?;
-    let rpm = rpm
-        .or(scene.file().operating_rpm)
-        .or(cut.runs.first().map(|run| run.rpm)).context(
+    let rpm = rpm.or_else(|| scene.cutting_rpm()).context(
         "--in-cut has no speed, and the scene neither operating_rpm nor cut.speeds; name one, like --in-cut 1800",
     )?;
     let charted = scene.charted_in_cut(rpm);

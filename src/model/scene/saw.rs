@@ -153,6 +153,12 @@ impl Scene {
         self.cut.as_ref()
     }
 
+    /// Speed at which the saw cuts, in rpm: the operating speed, or else the first of its cut; `None` without either.
+    pub fn cutting_rpm(&self) -> Option<f64> {
+        let first = self.cut()?.runs.first().map(|run| run.rpm);
+        self.file.operating_rpm.or(first)
+    }
+
     /// Angle of the middle of the cut; without a cut, zero, the direction from which angles are counted.
     pub fn cut_angle_rad(&self) -> f64 {
         self.file.cut_angle_deg().to_radians()
