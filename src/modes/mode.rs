@@ -126,6 +126,11 @@ impl Mode {
         }
     }
 
+    /// A mode of a damped blade by its λ and dλ/dΩ alone.
+    pub(crate) fn interpolated(lambda: c64, slope: c64, component: usize) -> Self {
+        Mode::of(lambda, slope, 1, component, Col::zeros(0))
+    }
+
     /// A mode with λ, slopes and action, those of a wave λ = iω, as the kind of mode that it is. The decaying partner of a divergent
     /// mode is none, because it belongs to the same ±ω pair.
     pub(super) fn classified(self, speed_rad_per_s: f64, is_undamped: bool) -> Option<Self> {

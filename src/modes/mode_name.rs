@@ -68,8 +68,8 @@ pub struct ModeName {
     pub direction: Direction,
     /// Shares of all harmonics, largest first.
     pub harmonics: Vec<HarmonicShare>,
-    /// Frequency of the dominant harmonic in the body frame, in rad/s.
-    pub body_frequency_rad_per_s: f64,
+    /// Whether the stronger wave of the dominant harmonic runs forward in space.
+    pub runs_forward: bool,
 }
 
 /// A motion is a standing wave if the squared amplitudes of all forward and of all backward waves differ by less
@@ -111,7 +111,21 @@ impl ModeName {
             circles: harmonics[0].circles,
             direction: direction(&waves, wave, mode),
             harmonics,
-            body_frequency_rad_per_s: wave.body_frequency(mode).abs(),
+            runs_forward: wave.runs_forward(),
+        }
+    }
+
+    /// Frequency of the dominant harmonic in the body frame, |ω − nΩ| of a wave that runs forward in space and ω + nΩ of one that
+    /// runs backward, in rad/s.
+    pub fn body_frequency_rad_per_s(&self, mode: &Mode, speed_rad_per_s: f64) -> f64 {
+        let (omega, carried) = (
+            mode.frequency_rad_per_s(),
+            self.diameters as f64 * speed_rad_per_s,
+        );
+        if self.runs_forward {
+            (omega - carried).abs()
+        } else {
+            omega + carried
         }
     }
 

@@ -59,7 +59,7 @@ impl Wave {
         self.forward_energy + self.backward_energy
     }
 
-    fn runs_forward(&self) -> bool {
+    pub fn runs_forward(&self) -> bool {
         self.diameters > 0 && self.forward_energy >= self.backward_energy
     }
 

@@ -1,5 +1,7 @@
 //! Detail of a chart: full, or a quick preview.
 
+use crate::modes::branches::Closeness;
+
 /// Detail of a chart. Critical speeds do not depend on it.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum Detail {
@@ -9,6 +11,16 @@ pub enum Detail {
     /// Fewer speeds, neither proof nor root loci, and errors of the bands that are too small for a figure to
     /// show: for a quick preview.
     Sketch,
+}
+
+impl Detail {
+    /// Accuracy of the lines of a chart.
+    pub(super) fn closeness(self) -> Closeness {
+        match self {
+            Detail::Full => Closeness::FIGURE,
+            Detail::Sketch => Closeness::SKETCH,
+        }
+    }
 }
 
 #[cfg(test)]

@@ -4,7 +4,7 @@
 use super::band::Instability;
 use super::certificate::Certificate;
 use crate::model::scene::SpeedRange;
-use crate::modes::branches::{Campbell, SpeedSample};
+use crate::modes::branches::{Campbell, ModesAt};
 use crate::modes::{SpectralModel, SpectrumError};
 
 /// Every band that a search finds, by onset, and the checks of them.
@@ -29,12 +29,19 @@ pub struct StabilityChart {
 
 impl StabilityChart {
     /// The chart of sampled modes and the bands of a search.
-    pub(super) fn new(model: &SpectralModel, samples: Vec<SpeedSample>, found: FoundBands) -> Self {
-        StabilityChart {
-            campbell: Campbell::track(samples, model.complete_to_rad_per_s),
+    ///
+    /// # Errors
+    /// [`SpectrumError`] when an eigenproblem fails.
+    pub(super) fn new(
+        model: &SpectralModel,
+        samples: Vec<ModesAt>,
+        found: FoundBands,
+    ) -> Result<Self, SpectrumError> {
+        Ok(StabilityChart {
+            campbell: Campbell::track(model, samples)?,
             instabilities: found.instabilities,
             certificate: found.certificate,
-        }
+        })
     }
 }
 

@@ -212,7 +212,8 @@ fn drawn_at_the_top(
         let same = |m: &&Mode| m.kind == mode.mode.kind;
         let distances = truth.iter().filter(same);
         let distance = distances.map(|m| (m.frequency_rad_per_s() - frequency).abs());
-        let error = distance.fold(f64::INFINITY, f64::min) / mode.name.body_frequency_rad_per_s;
+        let error = distance.fold(f64::INFINITY, f64::min)
+            / mode.name.body_frequency_rad_per_s(&mode.mode, speed);
         let place = || what(format!("{frequency:.2} rad/s at the top"));
         if error.is_finite() {
             ratios.drawn.add(error / (estimate + 1e-5), place);

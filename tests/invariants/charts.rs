@@ -179,7 +179,7 @@ fn branches_are_permuted_and_never_lost() {
         let plate = Plate::new(&scene(&file), SMALL);
         let model = SpectralModel::new(plate, range, Solver::Reduced).unwrap();
         let samples = sample(&model, &evenly_spaced(range.ends(), count), &|_, _| ()).unwrap();
-        let campbell = Campbell::track(samples.clone(), model.complete_to_rad_per_s);
+        let campbell = Campbell::track(&model, samples.clone()).unwrap();
         let mut met: Vec<Vec<usize>> = campbell
             .samples
             .iter()
@@ -195,7 +195,7 @@ fn branches_are_permuted_and_never_lost() {
         }
         prop_assert!(met.iter().flatten().all(|times| *times == 1));
         let reversed = samples.into_iter().rev().collect();
-        let backwards = Campbell::track(reversed, model.complete_to_rad_per_s);
+        let backwards = Campbell::track(&model, reversed).unwrap();
         for (x, y) in campbell.branches.iter().zip(&backwards.branches) {
             prop_assert_eq!(&x.points, &y.points);
         }

@@ -123,7 +123,7 @@ fn frequencies_on_the_blade_at_every_speed() {
             else {
                 continue;
             };
-            let actual = name.body_frequency_rad_per_s / TAU;
+            let actual = name.body_frequency_rad_per_s(&described.mode, speed_rad_per_s) / TAU;
             worst.add(relative_error(actual, *f), || {
                 format!("{} diameters at {speed} rpm", name.diameters)
             });

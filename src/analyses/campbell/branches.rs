@@ -6,9 +6,9 @@ use faer::{Col, c64};
 
 use super::chart::BranchCurve;
 use crate::model::scene::rpm;
-use crate::modes::branches::{Branch, Campbell, SpeedSample};
+use crate::modes::branches::{Branch, Campbell};
 use crate::modes::{
-    Direction, EventName, Mode, ModeKind, NamedCriticalSpeed, NamedMode, SpectralModel,
+    Direction, EventName, Mode, ModeKind, NamedCriticalSpeed, NamedMode, SpectralModel, smallest,
 };
 use crate::stability::{Analysis, Instability, InstabilityKind};
 
@@ -149,11 +149,14 @@ impl<'a> Numbered<'a> {
         let samples = &self.campbell().samples;
         let above = samples.partition_point(|s| s.speed_rad_per_s < critical.speed_rad_per_s);
         let model = &self.analysis.model;
-        let beside = [above.checked_sub(1), Some(above)]
+        let is_solved = |index: &usize| samples[*index].is_solved();
+        let beside = [
+            (0..above).rev().find(is_solved),
+            (above..samples.len()).find(is_solved),
+        ];
+        let candidates: Vec<_> = beside
             .into_iter()
             .flatten()
-            .filter(|index| *index < samples.len());
-        let candidates: Vec<_> = beside
             .flat_map(|index| {
                 let modes = samples[index].modes.iter().enumerate();
                 let own = modes.filter(|(_, m)| m.mode.component == critical.component);
@@ -184,10 +187,13 @@ impl<'a> Numbered<'a> {
         Some(self.place[branch] + 1)
     }
 
+    /// The computed sample nearest to a speed.
     fn nearest_sample(&self, speed_rad_per_s: f64) -> Option<usize> {
         let samples = &self.campbell().samples;
-        let off = |s: &SpeedSample| (s.speed_rad_per_s - speed_rad_per_s).abs();
-        (0..samples.len()).min_by(|x, y| off(&samples[*x]).total_cmp(&off(&samples[*y])))
+        let solved = (0..samples.len()).filter(|at| samples[*at].is_solved());
+        smallest(solved, |at| {
+            (samples[*at].speed_rad_per_s - speed_rad_per_s).abs()
+        })
     }
 
     fn entry(&self, branch: &Branch, place: usize) -> BranchCurve {
@@ -199,6 +205,14 @@ impl<'a> Numbered<'a> {
             let diameters = |place: usize| m.name.harmonics.get(place).map_or(0, |h| h.diameters);
             [diameters(0), diameters(1)]
         };
+        let body = branch
+            .points
+            .iter()
+            .zip(&modes)
+            .map(|((sample, _), named)| {
+                let speed = campbell.samples[*sample].speed_rad_per_s;
+                named.name.body_frequency_rad_per_s(&named.mode, speed) / TAU
+            });
         let named = &modes[naming_point(self.analysis, branch)].name;
         let name = &self.names[place];
         BranchCurve {
@@ -210,7 +224,7 @@ impl<'a> Numbered<'a> {
             direction: modes.iter().map(|m| m.name.direction.on_blade()).collect(),
             rpm: branch.points.iter().map(speed).collect(),
             frequency_hz: list(|m| m.mode.frequency_rad_per_s() / TAU),
-            body_frequency_hz: list(|m| m.name.body_frequency_rad_per_s / TAU),
+            body_frequency_hz: body.collect(),
             growth_per_s: list(|m| m.mode.growth_per_s()),
             krein_sign: modes.iter().map(|m| m.mode.krein_sign()).collect(),
             dominant_harmonics: modes.iter().map(harmonics).collect(),

@@ -205,7 +205,7 @@ impl ModeShape {
             direction: name.direction,
             rpm: rpm(speed_rad_per_s),
             frequency_hz: mode.frequency_rad_per_s() / TAU,
-            body_frequency_hz: name.body_frequency_rad_per_s / TAU,
+            body_frequency_hz: name.body_frequency_rad_per_s(mode, speed_rad_per_s) / TAU,
             growth_per_s: mode.growth_per_s(),
             krein_sign: mode.krein_sign(),
             radius_m: plate.sampled_radii_m().collect(),

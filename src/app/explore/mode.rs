@@ -38,6 +38,7 @@ pub fn answer(charts: &Charts, asked: &str) -> Result<ModeShape, Refusal> {
 /// Finds the mode nearest to the requested frequency at the sampled speed nearest to the requested one.
 fn nearest(analysis: &Analysis, asked: &Asked) -> Option<ModeShape> {
     let samples = analysis.chart.campbell.samples.iter();
+    let samples = samples.filter(|sample| sample.is_solved());
     let off = |value: f64, wanted: f64| (value - wanted).abs();
     let sample = samples.min_by(|x, y| {
         let of = |speed| off(rpm(speed), asked.rpm);

@@ -20,8 +20,8 @@ const SLOWER: f64 = 2.0;
 
 /// Index of the mode at the higher speed that continues each mode at the lower one, over a step in rad/s. A mode has no
 /// continuation only if it leaves the chart at its top, `height_rad_per_s`, or if fewer modes follow.
-pub fn links(ends: [&[&Mode]; 2], step: f64, height_rad_per_s: f64) -> Vec<Option<usize>> {
-    let [old, new] = ends.map(|modes| modes.iter().map(|m| Value::new(m)).collect::<Vec<_>>());
+pub fn links(ends: [&[Mode]; 2], step: f64, height_rad_per_s: f64) -> Vec<Option<usize>> {
+    let [old, new] = ends.map(|modes| modes.iter().map(Value::new).collect::<Vec<_>>());
     let passes_top = |value: &Value, step: f64| {
         let there = (value.lambda + value.slope * step).im.abs();
         there.max(value.lambda.im.abs()) >= (1.0 - TOP) * height_rad_per_s
@@ -113,8 +113,7 @@ mod tests {
     }
 
     fn found(before: &[Mode], after: &[Mode], step: f64) -> Vec<Option<usize>> {
-        let ends = [before, after].map(|modes| modes.iter().collect::<Vec<_>>());
-        links([&ends[0], &ends[1]], step, 100.0)
+        links([before, after], step, 100.0)
     }
 
     /// A damped mode stops oscillating below three others, the highest next to the top.

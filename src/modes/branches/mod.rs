@@ -1,9 +1,10 @@
 //! Campbell diagram: modes at many speeds, computed in parallel and followed as branches.
 //!
-//! The input is a [`SpectralModel`] and speeds in rad/s. The result is a [`Campbell`], which contains the
-//! modes at every speed, and the modes that belong to each branch.
+//! The input is a [`SpectralModel`] and its modes at some speeds, [`ModesAt`], computed or interpolated. The result is a
+//! [`Campbell`], which contains the modes at every speed with names, and the modes that belong to each branch.
 
 mod links;
+mod names;
 mod refinement;
 
 use faer::c64;
@@ -16,6 +17,7 @@ use crate::modes::{
 };
 
 use links::links;
+use names::named;
 pub(crate) use refinement::{Closeness, refined};
 
 /// Progress callback: number of speeds done and number of speeds in total.
@@ -51,24 +53,50 @@ fn end_in_words(largest_end_rpm: Option<f64>) -> String {
     largest_end_rpm.map_or_else(String::new, in_words)
 }
 
-/// Modes at one speed.
+/// Modes at one speed, to be followed.
+#[derive(Debug, Clone)]
+pub struct ModesAt {
+    /// Rotation speed Ω.
+    pub speed_rad_per_s: f64,
+    /// Modes up to the model's `complete_to`, ordered by frequency; interpolated ones have no coordinates.
+    pub modes: Vec<Mode>,
+}
+
+impl ModesAt {
+    /// Whether the eigenproblem of the speed was solved.
+    fn is_solved(&self) -> bool {
+        let mut modes = self.modes.iter();
+        modes.all(|mode| mode.coordinates.nrows() > 0)
+    }
+
+    fn named(&self, model: &SpectralModel) -> SpeedSample {
+        SpeedSample {
+            speed_rad_per_s: self.speed_rad_per_s,
+            modes: model.name(self.speed_rad_per_s, self.modes.clone()),
+        }
+    }
+
+    /// Index of the mode at a higher speed that continues each mode, see [`links`].
+    fn links(&self, after: &ModesAt, height_rad_per_s: f64) -> Vec<Option<usize>> {
+        let step = after.speed_rad_per_s - self.speed_rad_per_s;
+        links([&self.modes, &after.modes], step, height_rad_per_s)
+    }
+}
+
+/// Modes at one speed of a chart.
 #[derive(Debug, Clone)]
 pub struct SpeedSample {
     /// Rotation speed Ω.
     pub speed_rad_per_s: f64,
-    /// Modes up to the model's `complete_to`, ordered by frequency.
+    /// Modes with names, ordered by frequency; interpolated ones have no coordinates.
     pub modes: Vec<NamedMode>,
 }
 
 impl SpeedSample {
-    /// Index of the mode at a higher speed that continues each mode, see [`links`].
-    fn links(&self, after: &SpeedSample, height_rad_per_s: f64) -> Vec<Option<usize>> {
-        let modes = [self, after].map(|sample| -> Vec<&Mode> {
-            let modes = sample.modes.iter();
-            modes.map(|named| &named.mode).collect()
-        });
-        let step = after.speed_rad_per_s - self.speed_rad_per_s;
-        links([&modes[0], &modes[1]], step, height_rad_per_s)
+    /// Whether the eigenproblem of the speed was solved.
+    pub fn is_solved(&self) -> bool {
+        let mut modes = self.modes.iter();
+        modes.all(|named| named.mode.coordinates.nrows() > 0)
     }
 }
 
@@ -104,7 +132,7 @@ fn most_speeds(plate: &Plate, modes: usize) -> usize {
 }
 
 /// Number of speeds that a chart has room for in addition to its own.
-pub(crate) fn room_for_more(model: &SpectralModel, samples: &[SpeedSample]) -> usize {
+pub(crate) fn room_for_more(model: &SpectralModel, samples: &[ModesAt]) -> usize {
     let modes = samples.iter().map(|sample| sample.modes.len()).max();
     most_speeds(&model.plate, modes.unwrap_or(0)).saturating_sub(samples.len())
 }
@@ -176,65 +204,77 @@ pub fn sample(
     model: &SpectralModel,
     speeds: &[f64],
     progress: Progress<'_>,
-) -> Result<Vec<SpeedSample>, CampbellError> {
+) -> Result<Vec<ModesAt>, CampbellError> {
     let Some((last, others)) = speeds.split_last() else {
         return Ok(Vec::new());
     };
     let step = Work::of("speeds of the chart", speeds.len());
     let done = std::sync::atomic::AtomicUsize::new(0);
     let sampled = |speed_rad_per_s: &f64| {
-        let modes = model.name(*speed_rad_per_s, model.modes(*speed_rad_per_s)?);
+        let modes = model.modes(*speed_rad_per_s)?;
         let so_far = done.fetch_add(1, std::sync::atomic::Ordering::Relaxed) + 1;
         progress(so_far, speeds.len());
         step.advance();
-        Ok(SpeedSample {
+        Ok(ModesAt {
             speed_rad_per_s: *speed_rad_per_s,
             modes,
         })
     };
     let last = sampled(last)?;
     check_memory(&model.plate, &model.critical, last.modes.len(), speeds)?;
-    let samples: Vec<Result<SpeedSample, CampbellError>> = others.par_iter().map(sampled).collect();
+    let samples: Vec<Result<ModesAt, CampbellError>> = others.par_iter().map(sampled).collect();
     samples.into_iter().chain([Ok(last)]).collect()
 }
 
 impl Campbell {
-    /// Follows the modes of samples up to the height of their chart. A branch begins at the first speed or at
+    /// Follows the modes of samples up to the height of their chart, and names them. A branch begins at the first speed or at
     /// that height, and ends at the last speed or at that height.
-    pub fn track(mut samples: Vec<SpeedSample>, height_rad_per_s: f64) -> Self {
+    ///
+    /// # Errors
+    /// [`SpectrumError`] when an eigenproblem fails.
+    pub fn track(model: &SpectralModel, mut samples: Vec<ModesAt>) -> Result<Self, SpectrumError> {
         samples.sort_by(|x, y| x.speed_rad_per_s.total_cmp(&y.speed_rad_per_s));
-        let links: Vec<Vec<Option<usize>>> = samples
-            .par_windows(2)
-            .map(|pair| pair[0].links(&pair[1], height_rad_per_s))
-            .collect();
-        let mut branches: Vec<Branch> = Vec::new();
-        // `current` contains, for each mode of the previous sample, the index of its branch.
-        let mut current: Vec<usize> = Vec::new();
-        for (index, sample) in samples.iter().enumerate() {
-            let mut next = vec![usize::MAX; sample.modes.len()];
-            let before = index.checked_sub(1);
-            let links = before.map_or(&[][..], |before| &links[before]);
-            for (branch, after) in current.iter().zip(links) {
-                if let Some(after) = after {
-                    next[*after] = *branch;
-                }
-            }
-            for (mode, branch) in next.iter_mut().enumerate() {
-                if *branch == usize::MAX {
-                    *branch = branches.len();
-                    branches.push(Branch::default());
-                }
-                branches[*branch].points.push((index, mode));
-            }
-            current = next;
-        }
-        Campbell { samples, branches }
+        let branches = followed(&samples, model.complete_to_rad_per_s);
+        Ok(Campbell {
+            samples: named(model, samples, &branches)?,
+            branches,
+        })
     }
 
     /// Mode at a point of a branch.
     pub fn mode(&self, (sample, mode): (usize, usize)) -> &NamedMode {
         &self.samples[sample].modes[mode]
     }
+}
+
+/// Branches of the modes of samples at ascending speeds.
+fn followed(samples: &[ModesAt], height_rad_per_s: f64) -> Vec<Branch> {
+    let links: Vec<Vec<Option<usize>>> = samples
+        .par_windows(2)
+        .map(|pair| pair[0].links(&pair[1], height_rad_per_s))
+        .collect();
+    let mut branches: Vec<Branch> = Vec::new();
+    // `current` contains, for each mode of the previous sample, the index of its branch.
+    let mut current: Vec<usize> = Vec::new();
+    for (index, sample) in samples.iter().enumerate() {
+        let mut next = vec![usize::MAX; sample.modes.len()];
+        let before = index.checked_sub(1);
+        let links = before.map_or(&[][..], |before| &links[before]);
+        for (branch, after) in current.iter().zip(links) {
+            if let Some(after) = after {
+                next[*after] = *branch;
+            }
+        }
+        for (mode, branch) in next.iter_mut().enumerate() {
+            if *branch == usize::MAX {
+                *branch = branches.len();
+                branches.push(Branch::default());
+            }
+            branches[*branch].points.push((index, mode));
+        }
+        current = next;
+    }
+    branches
 }
 
 #[cfg(test)]
@@ -258,7 +298,7 @@ mod tests {
         let range = SpeedRange::between_rpm(0.0, 3000.0);
         let model = SpectralModel::new(plate, range, Strategy::Reduced).unwrap();
         let samples = sample(&model, &evenly_spaced(range.ends(), 31), &|_, _| ()).unwrap();
-        let campbell = Campbell::track(samples, model.complete_to_rad_per_s);
+        let campbell = Campbell::track(&model, samples).unwrap();
         // Branches that leave the chart at its top are shorter.
         let whole = campbell.branches.iter().filter(|b| b.points.len() > 10);
         let mut followed = 0;

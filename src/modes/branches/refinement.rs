@@ -2,8 +2,8 @@
 
 use rayon::prelude::*;
 
-use super::{CampbellError, SpeedSample, room_for_more, sample};
-use crate::modes::{Mode, ModeKind, NamedMode, SpectralModel};
+use super::{CampbellError, ModesAt, room_for_more};
+use crate::modes::{Mode, ModeKind, SpectralModel};
 
 /// Accuracy of the lines of a chart.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -32,20 +32,24 @@ impl Closeness {
     };
 }
 
-/// Allowed distance of a squared growth rate from the line between its neighbours, as a share of the larger
+/// Steps below this share of the speed are not halved: next to a coalescence no step is small enough.
+const LEAST_STEP: f64 = 1e-6;
+
+/// Allowed distance of a growth rate, or its square, from the line between its neighbours, as a share of the larger
 /// neighbour: five points on a parabola are enough.
 const GROWTH_CHORD: f64 = 0.13;
 
-/// Adds speeds to samples at ascending speeds until the lines between them are accurate, the allowed halvings
-/// are used up, or the allowed memory is full.
+/// Adds the modes `at` further speeds to samples at ascending speeds until the lines between them are accurate, the allowed
+/// halvings are used up, or the allowed memory is full.
 ///
 /// # Errors
 /// [`CampbellError`] of a speed that fails.
 pub fn refined(
     model: &SpectralModel,
-    mut samples: Vec<SpeedSample>,
+    mut samples: Vec<ModesAt>,
     closeness: Closeness,
-) -> Result<Vec<SpeedSample>, CampbellError> {
+    at: impl Fn(&[f64]) -> Result<Vec<ModesAt>, CampbellError>,
+) -> Result<Vec<ModesAt>, CampbellError> {
     let mut open: Vec<f64> = samples.iter().map(|s| s.speed_rad_per_s).collect();
     for _ in 0..closeness.halvings {
         let doubtful: Vec<(f64, f64)> = samples
@@ -64,7 +68,7 @@ pub fn refined(
             .iter()
             .map(|(from, to)| 0.5 * (from + to))
             .collect();
-        samples.extend(sample(model, &middle, &|_, _| ())?);
+        samples.extend(at(&middle)?);
         samples.sort_by(|x, y| x.speed_rad_per_s.total_cmp(&y.speed_rad_per_s));
         open = doubtful
             .iter()
@@ -78,19 +82,22 @@ pub fn refined(
 /// Whether a line from one speed to the next would misrepresent the modes.
 fn is_doubtful(
     model: &SpectralModel,
-    [before, after]: [&SpeedSample; 2],
+    [before, after]: [&ModesAt; 2],
     closeness: Closeness,
 ) -> bool {
     let height = model.complete_to_rad_per_s;
     let step = after.speed_rad_per_s - before.speed_rad_per_s;
+    if step < LEAST_STEP * after.speed_rad_per_s {
+        return false;
+    }
     let links = before.links(after, height);
-    let ends_inside = |modes: &[NamedMode], is_linked: &dyn Fn(usize) -> bool| {
+    let ends_inside = |modes: &[Mode], is_linked: &dyn Fn(usize) -> bool| {
         let mut left = modes.iter().enumerate().filter(|(k, _)| !is_linked(*k));
-        left.any(|(_, m)| m.mode.frequency_rad_per_s() < (1.0 - closeness.end) * height)
+        left.any(|(_, mode)| mode.frequency_rad_per_s() < (1.0 - closeness.end) * height)
     };
     let doubtful = |(k, next): (usize, &Option<usize>)| {
         let Some(next) = *next else { return false };
-        let ends = [&before.modes[k], &after.modes[next]].map(|named| &named.mode);
+        let ends = [&before.modes[k], &after.modes[next]];
         bend(ends, step) > closeness.chord * height || growth_bends(ends, step)
     };
     ends_inside(&before.modes, &|k| links[k].is_some())
@@ -105,19 +112,25 @@ fn bend(ends: [&Mode; 2], step: f64) -> f64 {
     if !ends.into_iter().all(is_wave) {
         return 0.0;
     }
-    let slope = |mode: &Mode| f64::from(mode.action) * mode.slope.im;
+    let slope = |mode: &Mode| match mode.kind {
+        ModeKind::Damped => mode.slope.im,
+        _ => f64::from(mode.action) * mode.slope.im,
+    };
     0.125 * (slope(ends[0]) - slope(ends[1])).abs() * step
 }
 
-/// Whether the squared growth rates of a growing mode, nearly a parabola over a band, deviate too far from a
-/// line.
+/// Whether the growth rates of a mode deviate too far from a line: without damping their squares, nearly a parabola over a band.
 fn growth_bends(ends: [&Mode; 2], step: f64) -> bool {
-    let grows = |mode: &Mode| matches!(mode.kind, ModeKind::Flutter | ModeKind::Divergent);
-    if !ends.into_iter().all(grows) {
+    let sloped = |mode: &Mode| match mode.kind {
+        ModeKind::Flutter | ModeKind::Divergent => {
+            let growth = mode.lambda.re;
+            Some([growth.powi(2), 2.0 * growth * mode.slope.re])
+        }
+        ModeKind::Damped => Some([mode.lambda.re, mode.slope.re]),
+        _ => None,
+    };
+    let [Some([from, first]), Some([to, last])] = ends.map(sloped) else {
         return false;
-    }
-    let squares = ends.map(|mode| mode.lambda.re.powi(2));
-    let slopes = ends.map(|mode| 2.0 * mode.lambda.re * mode.slope.re);
-    let bend = 0.125 * (slopes[0] - slopes[1]).abs() * step;
-    bend > GROWTH_CHORD * squares[0].max(squares[1])
+    };
+    0.125 * (first - last).abs() * step > GROWTH_CHORD * from.abs().max(to.abs())
 }

@@ -79,21 +79,20 @@ impl SpectralModel {
             full: OnceLock::new(),
             ..*self
         };
-        if let Some(known) = self.wave_models().first() {
+        if let Some((_, known)) = self.wave_models().first() {
             model.use_waves(known.range_rad_per_s(), waves::WIDE_CUT)?;
         }
         Ok(model)
     }
 
-    /// Reduced models by waves of the components of a blade, or of the parts into which they decouple further.
-    pub(crate) fn wave_models(&self) -> Vec<&WaveModel> {
-        let by_waves = self
-            .components
-            .iter()
-            .filter_map(|component| match &component.solution {
-                Solution::Waves(modes) => Some(modes.models()),
-                Solution::Whole | Solution::FreeWaves => None,
-            });
+    /// Reduced models by waves of the components of a blade, or of the parts into which they decouple further, with the index of
+    /// the component.
+    pub(crate) fn wave_models(&self) -> Vec<(usize, &WaveModel)> {
+        let components = self.components.iter().enumerate();
+        let by_waves = components.filter_map(|(index, component)| match &component.solution {
+            Solution::Waves(modes) => Some(modes.models().map(move |model| (index, model))),
+            Solution::Whole | Solution::FreeWaves => None,
+        });
         by_waves.flatten().collect()
     }
 

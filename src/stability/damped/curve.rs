@@ -35,7 +35,7 @@ type Tip = (Sloped, Curve);
 /// Curves over speed of the eigenvalues with Im λ ≥ 0 in the pieces of a search. A growth of `noise_per_s` is
 /// rounding.
 pub fn curves(pieces: &[Piece], top_rad_per_s: f64, noise_per_s: f64) -> Vec<Curve> {
-    let upper = |all: &[Sloped]| upper(all, REAL * top_rad_per_s);
+    let upper = |all: &[Sloped]| upper(all, top_rad_per_s);
     let (mut ended, mut open): (Vec<Curve>, Vec<Tip>) = (Vec::new(), Vec::new());
     for piece in pieces {
         let [from, to] = piece.ends.each_ref().map(|end| end.speed_rad_per_s);
@@ -73,8 +73,9 @@ pub fn curves(pieces: &[Piece], top_rad_per_s: f64, noise_per_s: f64) -> Vec<Cur
     ended
 }
 
-/// Eigenvalues with Im λ ≥ 0; frequencies below `real` are set to zero.
-fn upper(all: &[Sloped], real: f64) -> Vec<Sloped> {
+/// Eigenvalues with Im λ ≥ 0; frequencies that are rounding, beside the highest one, are set to zero.
+pub fn upper(all: &[Sloped], top_rad_per_s: f64) -> Vec<Sloped> {
+    let real = REAL * top_rad_per_s;
     let upper = all.iter().filter(|(z, _)| z.im > -real);
     let cleared = upper.map(|&(z, slope)| {
         if z.im.abs() <= real {

@@ -6,6 +6,7 @@
 //! where Re λ = 0, where a complex pair turns into two real eigenvalues or back, and at the smallest growth
 //! between two humps ([`hump`]).
 
+mod between;
 mod counts;
 mod curve;
 mod hump;
@@ -13,7 +14,7 @@ mod spectrum;
 
 use rayon::prelude::*;
 
-use super::band::Instability;
+use super::band::{CurvePoint, Instability};
 use super::certificate::Certificate;
 use super::detail::Detail;
 use super::error::AnalysisError;
@@ -25,8 +26,9 @@ use super::undamped::with_critical_speeds;
 use crate::model::evenly_spaced;
 use crate::model::scene::SpeedRange;
 use crate::model::tuning::Tuned;
-use crate::modes::branches;
-use crate::modes::{Mode, SpectralModel, SpectrumError, clear_range};
+use crate::modes::branches::{self, ModesAt};
+use crate::modes::{Mode, SpectralModel, SpectrumError, clear_range, smallest};
+use between::Between;
 use counts::Counts;
 pub(super) use counts::counted_in_window;
 use spectrum::{Component, Solver, Spectrum, noise};
@@ -38,39 +40,56 @@ const DRAWN: Tuned = Tuned::new("stability/damped::DRAWN", 0.02);
 /// Subdivisions of a cubic between two points of a curve for the comparison with straight lines.
 const PARTS: u32 = 4;
 
-/// Computes modes at `count` even speeds and wherever bands need more, the bands, and their checks.
+/// Finds the bands with their checks, and reads the chart off the pieces of their search: modes near `count` even speeds with their
+/// shapes, and at as many speeds between as lines need. Shapes at the peaks of bands and beside critical speeds are computed.
 pub(super) fn charted(
     model: &SpectralModel,
     range: SpeedRange,
     count: usize,
     options: AnalysisOptions<'_>,
 ) -> Result<StabilityChart, AnalysisError> {
+    let detail = options.detail;
     let drawn = clear_range(&model.critical, range);
-    let speeds = with_critical_speeds(
-        &model.plate,
-        &model.critical,
-        drawn,
-        evenly_spaced(drawn.ends(), count),
-    );
-    let closeness = Closeness::of(options.detail);
-    let searched = || {
-        let found = bands(model, range, options.detail)?;
-        options.report(&model.critical, range, Some(&found.instabilities));
-        Ok::<_, AnalysisError>(found)
-    };
-    let sampled = || branches::sample(model, &speeds, options.progress);
-    let (found, samples) = rayon::join(searched, sampled);
-    let (found, mut samples) = (found?, samples?);
-    let mut drawn: Vec<f64> = found
-        .instabilities
-        .iter()
-        .flat_map(|band| drawn_speeds(band, closeness.drawn))
-        .collect();
-    drawn.sort_by(f64::total_cmp);
-    drawn.dedup();
-    drawn.retain(|s| samples.iter().all(|sample| sample.speed_rad_per_s != *s));
-    samples.extend(branches::sample(model, &drawn, &|_, _| ())?);
-    Ok(StabilityChart::new(model, samples, found))
+    let even = evenly_spaced(drawn.ends(), count);
+    let speeds = with_critical_speeds(&model.plate, &model.critical, drawn, even);
+    branches::check_room(model, &speeds)?;
+    let (found, between, seen) = searched_bands(model, range, detail)?;
+    options.report(&model.critical, range, Some(&found.instabilities));
+    let (mut samples, mut open) = served(&speeds, seen);
+    open.extend(found.instabilities.iter().map(|band| band.peak_rad_per_s));
+    samples.extend(branches::sample(model, &open, options.progress)?);
+    let share = Closeness::of(detail).drawn;
+    let of_bands = found.instabilities.iter();
+    let of_bands = of_bands.flat_map(|band| drawn_speeds(band, share));
+    samples.extend(between.at_all(&of_bands.collect::<Vec<_>>())?);
+    samples.sort_by(|x, y| x.speed_rad_per_s.total_cmp(&y.speed_rad_per_s));
+    // Of equal speeds the computed one is first.
+    samples.dedup_by(|next, last| next.speed_rad_per_s == last.speed_rad_per_s);
+    let at = |speeds: &[f64]| between.at_all(speeds);
+    let samples = branches::refined(model, samples, detail.closeness(), at)?;
+    Ok(StabilityChart::new(model, samples, found)?)
+}
+
+/// Those of computed samples that take the place of speeds of a chart, because they are nearer to them than half the distance to
+/// their neighbours, and the speeds without one. The ends of the chart are kept exactly.
+fn served(speeds: &[f64], seen: Vec<ModesAt>) -> (Vec<ModesAt>, Vec<f64>) {
+    let mut taken = vec![false; seen.len()];
+    let mut open = Vec::new();
+    for (k, &speed) in speeds.iter().enumerate() {
+        let off = |at: &usize| (seen[*at].speed_rad_per_s - speed).abs();
+        let to_neighbour = match k.checked_sub(1).zip(speeds.get(k + 1)) {
+            Some((before, after)) => (speed - speeds[before]).min(after - speed),
+            None => 0.0,
+        };
+        let nearest = smallest(0..seen.len(), off).filter(|at| off(at) <= 0.5 * to_neighbour);
+        match nearest {
+            Some(at) => taken[at] = true,
+            None => open.push(speed),
+        }
+    }
+    let kept = seen.into_iter().zip(taken);
+    let kept = kept.filter_map(|(sample, is_taken)| is_taken.then_some(sample));
+    (kept.collect(), open)
 }
 
 /// Number of even speeds at the start of the search.
@@ -120,6 +139,15 @@ pub(super) fn bands(
     range: SpeedRange,
     detail: Detail,
 ) -> Result<FoundBands, SpectrumError> {
+    Ok(searched_bands(model, range, detail)?.0)
+}
+
+/// The bands, and what a chart reads off their search: its pieces, and modes at its speeds.
+fn searched_bands(
+    model: &SpectralModel,
+    range: SpeedRange,
+    detail: Detail,
+) -> Result<(FoundBands, Between<'_>, Vec<ModesAt>), SpectrumError> {
     let closeness = Closeness::of(detail);
     let solver = Solver::new(model);
     let speeds = evenly_spaced(range.ends(), SEARCH_SPEEDS);
@@ -157,10 +185,17 @@ pub(super) fn bands(
         gave_up: solver.is_exhausted(),
         ..Certificate::default()
     };
-    Ok(FoundBands {
+    let pieces = searched.into_iter().enumerate();
+    let parts = pieces.map(|(index, (pieces, _))| (solver.component(index).index, pieces));
+    let between = Between {
+        model,
+        parts: parts.collect(),
+    };
+    let found = FoundBands {
         instabilities,
         certificate,
-    })
+    };
+    Ok((found, between, solver.into_seen()))
 }
 
 /// Pieces of one component of the saw, and its bands.
@@ -230,7 +265,8 @@ fn mismatches(model: &SpectralModel, spectra: &[Spectrum], bands: &[Instability]
 }
 
 /// Speeds at which the growth in a band is drawn: ends, peak, and as many between as straight lines need to
-/// follow the curve.
+/// follow the curve. An end where λ is real is left out: it is next to a coalescence with another real λ, at which neither can be
+/// told from the other.
 fn drawn_speeds(band: &Instability, share: f64) -> Vec<f64> {
     let tolerance = share * band.peak_growth_per_s.sqrt();
     let mut points: Vec<(f64, f64)> = Vec::new();
@@ -257,5 +293,8 @@ fn drawn_speeds(band: &Instability, share: f64) -> Vec<f64> {
             drawn.push(k);
         }
     }
+    let is_real = |point: Option<&CurvePoint>| point.is_some_and(|point| point.number.im == 0.0);
+    let [from, to] = [band.curve.first(), band.curve.last()].map(is_real);
+    drawn.retain(|&k| !(from && k == 0 || to && k + 1 == points.len()));
     drawn.into_iter().map(|k| points[k].0).collect()
 }

@@ -1,9 +1,11 @@
 //! Eigenvalues of a damped blade at one speed, with their slopes.
 
+use std::sync::Mutex;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
 use faer::c64;
 
+use crate::modes::branches::ModesAt;
 use crate::modes::waves::WaveModel;
 use crate::modes::{SpectralModel, SpectrumError, smallest};
 use crate::stability::group::Sloped;
@@ -35,9 +37,11 @@ pub struct Spectrum {
 /// Computes the spectra of a saw on its reduced model by waves, and counts them.
 pub struct Solver<'a> {
     model: &'a SpectralModel,
-    /// Reduced models of the components of the saw.
-    components: Vec<&'a WaveModel>,
+    /// Reduced models of the components of the saw, or of their parts, with the index of the component.
+    components: Vec<(usize, &'a WaveModel)>,
     spent: AtomicUsize,
+    /// Modes at the speeds of the search of a saw of one part.
+    seen: Mutex<Vec<ModesAt>>,
 }
 
 impl<'a> Solver<'a> {
@@ -47,6 +51,7 @@ impl<'a> Solver<'a> {
             model,
             components: model.wave_models(),
             spent: AtomicUsize::new(0),
+            seen: Mutex::default(),
         }
     }
 
@@ -85,7 +90,8 @@ impl<'a> Solver<'a> {
     pub fn component(&self, index: usize) -> Component<'_> {
         Component {
             solver: self,
-            model: self.components[index],
+            index: self.components[index].0,
+            model: self.components[index].1,
         }
     }
 
@@ -99,6 +105,13 @@ impl<'a> Solver<'a> {
         noise(self.model)
     }
 
+    /// Modes at the speeds of the search of a saw of one part, ascending; empty for other saws.
+    pub fn into_seen(self) -> Vec<ModesAt> {
+        let mut seen = self.seen.into_inner().unwrap_or_default();
+        seen.sort_by(|x, y| x.speed_rad_per_s.total_cmp(&y.speed_rad_per_s));
+        seen
+    }
+
     /// Whether the allowed number of spectra is used up.
     pub fn is_exhausted(&self) -> bool {
         self.spent.load(Ordering::Relaxed) >= MOST_SPECTRA
@@ -108,6 +121,8 @@ impl<'a> Solver<'a> {
 /// Eigenvalues of a component of a saw.
 pub struct Component<'a> {
     pub solver: &'a Solver<'a>,
+    /// Index of the component of the saw.
+    pub index: usize,
     model: &'a WaveModel,
 }
 
@@ -118,7 +133,7 @@ impl Component<'_> {
         if self.solver.is_exhausted() {
             return Ok(None);
         }
-        let mut values = self.eigenvalues(speed)?;
+        let mut values = self.searched(speed)?;
         values.sort_by(|x, y| x.0.im.total_cmp(&y.0.im));
         let reals = values.iter().filter(|(lambda, _)| lambda.im == 0.0).count();
         let followed = values.partition_point(|(lambda, _)| lambda.im <= self.solver.highest());
@@ -138,6 +153,24 @@ impl Component<'_> {
         counters.cancellation.check()?;
         counters.refined_pairs.fetch_add(1, Ordering::Relaxed);
         Ok(self.model.next_to(speed, expected))
+    }
+
+    /// Eigenvalues at a speed of the search. If the component is the whole saw, its modes are kept for the chart.
+    fn searched(&self, speed: f64) -> Result<Vec<Sloped>, SpectrumError> {
+        let solver = self.solver;
+        if solver.components() > 1 {
+            return self.eigenvalues(speed);
+        }
+        solver.spent.fetch_add(1, Ordering::Relaxed);
+        let modes = solver.model.all_modes(speed)?;
+        let values = modes.iter().map(|mode| (mode.lambda, mode.slope)).collect();
+        if let Ok(mut seen) = solver.seen.lock() {
+            seen.push(ModesAt {
+                speed_rad_per_s: speed,
+                modes: solver.model.shown(modes),
+            });
+        }
+        Ok(values)
     }
 
     /// Eigenvalues of a component with Im λ ≥ 0, without free rigid motions, and their slopes.

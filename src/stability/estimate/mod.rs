@@ -66,7 +66,10 @@ impl Estimates {
         let looks = LOOKS
             .map(|share| range.from_rad_per_s + share * range.width())
             .into_iter()
-            .filter_map(|speed| smallest(samples, |sample| (sample.speed_rad_per_s - speed).abs()));
+            .filter_map(|speed| {
+                let solved = samples.iter().filter(|sample| sample.is_solved());
+                smallest(solved, |sample| (sample.speed_rad_per_s - speed).abs())
+            });
         let (mut drawn, mut backward_error) = (0.0_f64, 0.0_f64);
         for sample in looks {
             let speed = sample.speed_rad_per_s;

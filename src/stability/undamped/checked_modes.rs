@@ -8,6 +8,7 @@ use rayon::prelude::*;
 use faer::c64;
 
 use crate::model::tuning::Tuned;
+use crate::modes::branches::ModesAt;
 use crate::modes::{DoubleEigenvalue, Mode, SpectralModel, SpectrumError, krein_index, smallest};
 use crate::stability::certificate::Certificate;
 use crate::stability::group::Sloped;
@@ -41,18 +42,8 @@ struct Tally {
 /// A growing eigenvalue at more than this share of its expected growth from the expected one may be another.
 const SAME_GROWTH: f64 = 0.1;
 
-/// All modes of the reduced model at a speed.
-pub struct SolvedSpeed {
-    /// Rotation speed Ω.
-    pub speed_rad_per_s: f64,
-    /// Modes at this speed.
-    pub modes: Vec<Mode>,
-}
-
-impl SolvedSpeed {
-    fn sample(&self) -> Sample {
-        Sample::of_modes(self.speed_rad_per_s, self.modes.iter())
-    }
+fn sample(solved: &ModesAt) -> Sample {
+    Sample::of_modes(solved.speed_rad_per_s, solved.modes.iter())
 }
 
 /// Squares of the growing eigenvalues.
@@ -86,9 +77,9 @@ pub struct CheckedModes<'a> {
     model: &'a SpectralModel,
     tally: Tally,
     /// Modes at the speeds of the search.
-    seen: Mutex<Vec<SolvedSpeed>>,
+    seen: Mutex<Vec<ModesAt>>,
     /// Modes at other speeds.
-    others: Mutex<Vec<SolvedSpeed>>,
+    others: Mutex<Vec<ModesAt>>,
 }
 
 impl<'a> CheckedModes<'a> {
@@ -128,11 +119,11 @@ impl<'a> CheckedModes<'a> {
     /// # Errors
     /// [`SpectrumError`] when the eigenproblem fails.
     pub fn at(&self, speed_rad_per_s: f64) -> Result<Sample, SpectrumError> {
-        Ok(self.checked(speed_rad_per_s)?.sample())
+        Ok(sample(&self.checked(speed_rad_per_s)?))
     }
 
     /// Modes at a speed, with the checks of [`CheckedModes::at`].
-    fn checked(&self, speed_rad_per_s: f64) -> Result<SolvedSpeed, SpectrumError> {
+    fn checked(&self, speed_rad_per_s: f64) -> Result<ModesAt, SpectrumError> {
         self.tally.checked.fetch_add(1, Ordering::Relaxed);
         let solved = self.solved(speed_rad_per_s)?;
         if self.matches_index(&solved) {
@@ -149,8 +140,8 @@ impl<'a> CheckedModes<'a> {
         Ok(solved)
     }
 
-    fn solved(&self, speed_rad_per_s: f64) -> Result<SolvedSpeed, SpectrumError> {
-        Ok(SolvedSpeed {
+    fn solved(&self, speed_rad_per_s: f64) -> Result<ModesAt, SpectrumError> {
+        Ok(ModesAt {
             speed_rad_per_s,
             modes: self.model.all_modes(speed_rad_per_s)?,
         })
@@ -161,7 +152,7 @@ impl<'a> CheckedModes<'a> {
     /// # Errors
     /// [`SpectrumError`] when the eigenproblem fails.
     pub fn guess_at(&self, speed_rad_per_s: f64) -> Result<Sample, SpectrumError> {
-        Ok(self.solved(speed_rad_per_s)?.sample())
+        Ok(sample(&self.solved(speed_rad_per_s)?))
     }
 
     /// Squares of the eigenvalues at a speed, for a search by pieces. `None` next to a critical speed, where
@@ -186,7 +177,7 @@ impl<'a> CheckedModes<'a> {
 
     /// The modes up to the height of the search and [`BESIDES`] above, with a wave far above, because the reduced model may have
     /// none there, in whose gap the search could end.
-    fn followed(&self, solved: &SolvedSpeed) -> Sample {
+    fn followed(&self, solved: &ModesAt) -> Sample {
         let mut followed: Vec<&Mode> = solved.modes.iter().collect();
         followed.sort_by(|x, y| x.lambda.im.total_cmp(&y.lambda.im));
         let height = self.height_rad_per_s();
@@ -204,16 +195,16 @@ impl<'a> CheckedModes<'a> {
 
     /// Samples at the speeds of the search, ascending.
     pub fn samples(&self) -> Vec<Sample> {
-        let mut all: Vec<Sample> = self.seen.lock().map_or_else(
-            |_| Vec::new(),
-            |seen| seen.iter().map(SolvedSpeed::sample).collect(),
-        );
+        let mut all: Vec<Sample> = self
+            .seen
+            .lock()
+            .map_or_else(|_| Vec::new(), |seen| seen.iter().map(sample).collect());
         all.sort_by(|x, y| x.speed_rad_per_s.total_cmp(&y.speed_rad_per_s));
         all
     }
 
     /// Modes at all speeds of the search and of its checks, ascending, each speed once.
-    pub fn into_solved(self) -> Vec<SolvedSpeed> {
+    pub fn into_solved(self) -> Vec<ModesAt> {
         let mut all = self.seen.into_inner().unwrap_or_default();
         all.extend(self.others.into_inner().unwrap_or_default());
         all.sort_by(|x, y| x.speed_rad_per_s.total_cmp(&y.speed_rad_per_s));
@@ -243,7 +234,7 @@ impl<'a> CheckedModes<'a> {
 
     /// Whether the Krein index of modes equals the number of negative eigenvalues of the stiffness, which a
     /// separate symmetric eigenproblem on the full model gives.
-    fn matches_index(&self, solved: &SolvedSpeed) -> bool {
+    fn matches_index(&self, solved: &ModesAt) -> bool {
         let negative = self
             .model
             .negative_stiffness_directions(solved.speed_rad_per_s);
@@ -255,11 +246,11 @@ impl<'a> CheckedModes<'a> {
     /// # Errors
     /// [`SpectrumError`] of the lowest speed that fails.
     pub fn at_all(&self, speeds: &[f64]) -> Result<Vec<Sample>, SpectrumError> {
-        let solved: Vec<SolvedSpeed> = speeds
+        let solved: Vec<ModesAt> = speeds
             .par_iter()
             .map(|&speed| self.checked(speed))
             .collect::<Result<_, _>>()?;
-        let samples = solved.iter().map(SolvedSpeed::sample).collect();
+        let samples = solved.iter().map(sample).collect();
         if let Ok(mut others) = self.others.lock() {
             others.extend(solved);
         }

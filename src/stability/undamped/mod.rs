@@ -13,18 +13,16 @@ mod loci;
 mod proof;
 mod stretches;
 
-use rayon::prelude::*;
-
 pub(crate) use self::certification::Depth;
 pub(super) use self::certification::{GROWTH_FLOOR, contradictions, drawn_share};
 pub(super) use self::loci::RootLoci;
 
 use self::certification::{Searched, bands};
-use self::checked_modes::{CRITICAL_GAP, CRITICAL_GROUP, SolvedSpeed};
+use self::checked_modes::{CRITICAL_GAP, CRITICAL_GROUP};
 use crate::model::evenly_spaced;
 use crate::model::plate::Plate;
 use crate::model::scene::SpeedRange;
-use crate::modes::branches::{self, Closeness, SpeedSample};
+use crate::modes::branches::{self, ModesAt};
 use crate::modes::{NamedCriticalSpeed, SpectralModel, SpectrumError, clear_range, searched_range};
 use crate::stability::band::Instability;
 use crate::stability::detail::Detail;
@@ -64,10 +62,6 @@ pub(super) fn charted(
     } else {
         search_speeds(model, range, SEARCH_SPEEDS)
     };
-    let closeness = match detail {
-        Detail::Full => Closeness::FIGURE,
-        Detail::Sketch => Closeness::SKETCH,
-    };
     branches::check_room(model, &speeds)?;
     let Searched { mut found, solved } = bands(model, range, &search, depth)?;
     options.report(&model.critical, range, Some(&found.instabilities));
@@ -77,31 +71,32 @@ pub(super) fn charted(
     let added = speeds_of_bands(&found.instabilities, &samples, range);
     samples.extend(branches::sample(model, &added, &|_, _| ())?);
     samples.sort_by(|x, y| x.speed_rad_per_s.total_cmp(&y.speed_rad_per_s));
-    let samples = branches::refined(model, samples, closeness)?;
+    let solved = |speeds: &[f64]| branches::sample(model, speeds, &|_, _| ());
+    let samples = branches::refined(model, samples, detail.closeness(), solved)?;
     let drawn: Vec<Sample> = samples.iter().map(numbers).collect();
     let wrong = contradictions(&found.instabilities, &drawn, DRAWN_FLOOR);
     found.certificate.mismatches.extend(wrong);
-    Ok(StabilityChart::new(model, samples, found))
+    Ok(StabilityChart::new(model, samples, found)?)
 }
 
 /// Samples at the speeds of a search within a range.
 fn searched_samples(
     model: &SpectralModel,
-    solved: Vec<SolvedSpeed>,
+    solved: Vec<ModesAt>,
     drawn: SpeedRange,
-) -> Vec<SpeedSample> {
+) -> Vec<ModesAt> {
     let inside = solved
-        .into_par_iter()
+        .into_iter()
         .filter(|at| drawn.contains(at.speed_rad_per_s));
-    let named = inside.map(|at| SpeedSample {
-        speed_rad_per_s: at.speed_rad_per_s,
-        modes: model.name(at.speed_rad_per_s, model.shown(at.modes)),
+    let shown = inside.map(|at| ModesAt {
+        modes: model.shown(at.modes),
+        ..at
     });
-    named.collect()
+    shown.collect()
 }
 
 /// The speeds outside the range of samples: a search has enough speeds where bands may be.
-fn speeds_beside(samples: &[SpeedSample], mut speeds: Vec<f64>) -> Vec<f64> {
+fn speeds_beside(samples: &[ModesAt], mut speeds: Vec<f64>) -> Vec<f64> {
     let searched = samples.iter().map(|sample| sample.speed_rad_per_s);
     let first = searched.clone().fold(f64::INFINITY, f64::min);
     let last = searched.fold(0.0, f64::max);
@@ -109,9 +104,8 @@ fn speeds_beside(samples: &[SpeedSample], mut speeds: Vec<f64>) -> Vec<f64> {
     speeds
 }
 
-fn numbers(sample: &SpeedSample) -> Sample {
-    let modes = sample.modes.iter().map(|named| &named.mode);
-    Sample::of_modes(sample.speed_rad_per_s, modes)
+fn numbers(sample: &ModesAt) -> Sample {
+    Sample::of_modes(sample.speed_rad_per_s, sample.modes.iter())
 }
 
 /// Finds every band of an undamped blade in a range of speeds, with the results of its checks. The search
@@ -249,7 +243,7 @@ const BESIDE_EDGE: f64 = 0.06;
 /// Speeds at which the largest growth and both edges of bands are drawn, except those near which there are samples.
 fn speeds_of_bands(
     instabilities: &[Instability],
-    samples: &[SpeedSample],
+    samples: &[ModesAt],
     range: SpeedRange,
 ) -> Vec<f64> {
     let is_sampled = |within: SpeedRange| {

@@ -2,10 +2,11 @@
 
 use rayon::prelude::*;
 
-use super::checked_modes::{CheckedModes, SolvedSpeed};
+use super::checked_modes::CheckedModes;
 use super::growing::growing;
 use super::proof::Proof;
 use crate::model::scene::{Accuracy, SpeedRange};
+use crate::modes::branches::ModesAt;
 use crate::modes::{SpectralModel, SpectrumError};
 use crate::stability::band::Instability;
 use crate::stability::certificate::{Certificate, ContradictedBands, mismatches};
@@ -83,7 +84,7 @@ pub struct Searched {
     /// Bands and certificate.
     pub found: FoundBands,
     /// Modes of the model at the speeds of the search; empty if more waves were needed.
-    pub solved: Vec<SolvedSpeed>,
+    pub solved: Vec<ModesAt>,
 }
 
 /// Bands and certificate by one search.
