@@ -115,6 +115,19 @@ impl ModeName {
         }
     }
 
+    /// The name for another mode of the same waves: without damping its Krein sign tells whether it is reflected.
+    pub(super) fn of_same_waves(&self, mode: &Mode) -> Self {
+        let direction = match (mode.kind, self.direction) {
+            (ModeKind::Damped, direction) => direction,
+            (ModeKind::Negative, _) => Direction::Reflected,
+            (_, direction) => direction.on_blade(),
+        };
+        ModeName {
+            direction,
+            ..self.clone()
+        }
+    }
+
     /// Frequency of the dominant harmonic in the body frame, |ω − nΩ| of a wave that runs forward in space and ω + nΩ of one that
     /// runs backward, in rad/s.
     pub fn body_frequency_rad_per_s(&self, mode: &Mode, speed_rad_per_s: f64) -> f64 {

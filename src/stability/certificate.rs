@@ -72,13 +72,27 @@ const EDGE_TOLERANCE: f64 = 5e-5;
 /// refined.
 const PEAK_TOLERANCE: f64 = 0.03;
 
+/// Share of |ω| + Ω below which growth is not compared with the bands: next to a coalescence eigenvalues are
+/// accurate to √ε of the largest frequency of the reduced model.
+pub const GROWTH_FLOOR: f64 = 1e-5;
+
+/// Contradictions between bands and modes at some speeds.
+pub fn contradictions(
+    bands: &[Instability],
+    samples: &[Sample],
+    floor: f64,
+) -> Vec<ContradictedBands> {
+    let of = |sample: &Sample| {
+        let highest = sample.highest_rad_per_s();
+        let floor = floor * (sample.speed_rad_per_s + highest);
+        mismatches(bands, sample, floor)
+    };
+    samples.iter().flat_map(of).collect()
+}
+
 /// Compares bands with the modes at a speed: each kind must have as many bands as unstable modes, and no mode
 /// may grow faster than the peak of its band. `floor_per_s` is the growth below which a mode may be rounding.
-pub fn mismatches(
-    bands: &[Instability],
-    sample: &Sample,
-    floor_per_s: f64,
-) -> Vec<ContradictedBands> {
+fn mismatches(bands: &[Instability], sample: &Sample, floor_per_s: f64) -> Vec<ContradictedBands> {
     let speed = sample.speed_rad_per_s;
     let near = |edge: f64| (speed / edge - 1.0).abs() <= EDGE_TOLERANCE;
     if bands

@@ -1,12 +1,13 @@
 //! Stability chart of a saw: samples, branches and bands over a range of speeds.
 
+use super::certificate::{GROWTH_FLOOR, contradictions};
 use super::damped;
 use super::error::AnalysisError;
 use super::options::AnalysisOptions;
 use super::sample::Sample;
 use super::search_result::StabilityChart;
 use super::undamped;
-use super::undamped::{Depth, GROWTH_FLOOR, contradictions};
+use super::undamped::Depth;
 use crate::model::scene::SpeedRange;
 use crate::modes::branches::Progress;
 use crate::modes::{Mode, SpectralModel};

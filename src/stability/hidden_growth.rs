@@ -12,7 +12,7 @@ impl StabilityChart {
     /// Two waves of opposite Krein sign whose frequencies approach by s per unit of speed and that are
     /// coupled by κ have λ − iω = ±√(κ² − (sΔΩ/2)²): a band of width w = 4κ/s with growth up to κ = sw/4.
     /// Waves of n and m nodal diameters approach by at most n + m, apart from the stiffening by rotation. The
-    /// modes at drawn speeds are known, so a hidden band would be between two drawn speeds. This is an
+    /// modes at computed speeds are known, so a hidden band would be between two of them. This is an
     /// estimate and no proof, because it considers only the two waves.
     pub fn unproven_growth_per_s(&self) -> Option<f64> {
         let growth = self.hidden()?.into_iter().map(|(_, growth)| growth);
@@ -36,13 +36,11 @@ impl StabilityChart {
         joined
     }
 
-    /// Parts of the unproven intervals between drawn speeds, with the estimated growth rate for each, in 1/s.
+    /// Parts of the unproven intervals between computed speeds, with the estimated growth rate for each, in 1/s.
     fn hidden(&self) -> Option<Vec<(SpeedRange, f64)>> {
         let stretches = self.certificate.unproven_rad_per_s.as_ref()?;
-        let drawn: Vec<f64> = self
-            .campbell
-            .samples
-            .iter()
+        let drawn: Vec<f64> = computed(&self.campbell)
+            .into_iter()
             .map(|s| s.speed_rad_per_s)
             .collect();
         let parts = stretches
@@ -61,6 +59,11 @@ impl StabilityChart {
     }
 }
 
+fn computed(campbell: &Campbell) -> Vec<&SpeedSample> {
+    let samples = campbell.samples.iter();
+    samples.filter(|sample| sample.is_solved()).collect()
+}
+
 /// Largest frequency of a wave that can coalesce with a reflected wave in an interval, relative to the
 /// frequency of the highest reflected wave near the interval.
 const COALESCING: f64 = 2.0;
@@ -68,12 +71,13 @@ const COALESCING: f64 = 2.0;
 /// Sum n + m for the waves of opposite sign with most nodal diameters that may coalesce in an interval.
 fn approach(campbell: &Campbell, range: SpeedRange) -> f64 {
     let [from, to] = range.ends();
-    let samples = &campbell.samples;
-    let speed = |sample: &SpeedSample| sample.speed_rad_per_s;
-    let below = samples.partition_point(|s| speed(s) <= from);
+    let samples = computed(campbell);
+    let below = samples.partition_point(|s| s.speed_rad_per_s <= from);
     let first = below.saturating_sub(1);
-    let last = samples.partition_point(|s| speed(s) < to).max(first);
-    let about = samples.iter().take(last + 1).skip(first);
+    let last = samples
+        .partition_point(|s| s.speed_rad_per_s < to)
+        .max(first);
+    let about = samples.into_iter().take(last + 1).skip(first);
     let modes: Vec<&NamedMode> = about.flat_map(|sample| &sample.modes).collect();
     let largest = |sign: i8, to_rad_per_s: f64| {
         let waves = modes.iter().filter(|m| {

@@ -57,8 +57,6 @@ const MARGIN: f64 = 0.05;
 const STEPS: usize = 16;
 /// A discriminant that falls below this share of its end values may hide a coalescence.
 const DIP: f64 = 0.05;
-/// Relative error allowed for waves of one Krein sign, which cannot coalesce with each other.
-const DEFINITE_TOLERANCE: f64 = 0.05;
 
 /// Accuracy and data of a search.
 pub struct Search<'a> {
@@ -68,6 +66,8 @@ pub struct Search<'a> {
     pub top_rad_per_s: f64,
     /// Relative error allowed for the numbers.
     pub tolerance: f64,
+    /// Relative error allowed for waves of one Krein sign, which cannot coalesce with each other.
+    pub definite_tolerance: f64,
     /// Relative error allowed for a growth rate.
     pub growth_tolerance: f64,
     /// Growth that is rounding, in 1/s.
@@ -255,7 +255,7 @@ impl Search<'_> {
             .max(self.plane.sized(1e-3 * self.top_rad_per_s));
         let misfit = match grouped.sign {
             Some(sign) if places.iter().any(|&place| sample.signs[place] != sign) => return None,
-            Some(_) => off / (DEFINITE_TOLERANCE * size),
+            Some(_) => off / (self.definite_tolerance * size),
             None => {
                 let at_ends = [0, 1].map(|end| {
                     let places = grouped.places[end].iter();

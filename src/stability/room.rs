@@ -2,8 +2,8 @@
 
 use super::basis::ChosenBasis;
 use super::chart::CHART_SPEEDS;
+use super::critical_sides::with_critical_speeds;
 use super::error::AnalysisError;
-use super::undamped::with_critical_speeds;
 use crate::model::evenly_spaced;
 use crate::modes::branches::check_memory;
 use crate::modes::{clear_range, highest_reflected, waves_within};

@@ -127,6 +127,14 @@ impl Sample {
         Sample::of_squares(speed_rad_per_s, squares)
     }
 
+    /// Makes all squares those of waves of sign +. A double one may have an imaginary part by rounding.
+    pub fn set_definite(&mut self) {
+        let numbers = self.eigenvalues.iter_mut();
+        let parts = numbers.flat_map(|(square, slope)| [square, slope]);
+        parts.for_each(|number| number.im = 0.0);
+        self.signs.fill(1);
+    }
+
     /// Index between the eigenvalues and their conjugates.
     pub fn middle(&self) -> usize {
         self.eigenvalues.len() / 2

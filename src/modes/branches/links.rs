@@ -35,6 +35,27 @@ pub fn links(ends: [&[Mode]; 2], step: f64, height_rad_per_s: f64) -> Vec<Option
     })
 }
 
+/// The links of a step are certain if exchanging any two of them makes their distances this many times as large.
+const CERTAIN: f64 = 4.0;
+
+/// Whether the links of a step are certain: over a shorter one slopes tell waves apart that cross or run side by side.
+pub fn are_certain(ends: [&[Mode]; 2], step: f64, links: &[Option<usize>]) -> bool {
+    let [old, new] = ends.map(|modes| modes.iter().map(Value::new).collect::<Vec<_>>());
+    let linked: Vec<(&Value, &Value)> = old
+        .iter()
+        .zip(links)
+        .filter_map(|(value, next)| Some((value, &new[(*next)?])))
+        .collect();
+    let distance = |x: &Value, y: &Value| x.distance(y, step).unwrap_or(f64::INFINITY);
+    let pairs =
+        (0..linked.len()).flat_map(|i| (0..i).map(|k| (linked[i], linked[k])).collect::<Vec<_>>());
+    let mut pairs = pairs.filter(|((x, _), (y, _))| x.component == y.component);
+    pairs.all(|((x, to_x), (y, to_y))| {
+        let exchanged = distance(x, to_y) + distance(y, to_x);
+        CERTAIN * (distance(x, to_x) + distance(y, to_y)) <= exchanged
+    })
+}
+
 /// λ of a mode in the form of positive action, with its slope.
 struct Value {
     lambda: c64,

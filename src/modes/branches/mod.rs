@@ -5,6 +5,7 @@
 
 mod links;
 mod names;
+mod points;
 mod refinement;
 
 use faer::c64;
@@ -13,11 +14,12 @@ use rayon::prelude::*;
 use crate::model::plate::Plate;
 use crate::model::scene::rpm;
 use crate::modes::{
-    HarmonicShare, Mode, NamedCriticalSpeed, NamedMode, SpectralModel, SpectrumError, Work,
+    HarmonicShare, NamedCriticalSpeed, NamedMode, SpectralModel, SpectrumError, Work,
 };
 
 use links::links;
 use names::named;
+pub use points::{Branch, ModesAt, SpeedSample};
 pub(crate) use refinement::{Closeness, refined};
 
 /// Progress callback: number of speeds done and number of speeds in total.
@@ -51,60 +53,6 @@ pub enum CampbellError {
 fn end_in_words(largest_end_rpm: Option<f64>) -> String {
     let in_words = |end: f64| format!("end the sweep at {end:.0} rpm or earlier, or ");
     largest_end_rpm.map_or_else(String::new, in_words)
-}
-
-/// Modes at one speed, to be followed.
-#[derive(Debug, Clone)]
-pub struct ModesAt {
-    /// Rotation speed Ω.
-    pub speed_rad_per_s: f64,
-    /// Modes up to the model's `complete_to`, ordered by frequency; interpolated ones have no coordinates.
-    pub modes: Vec<Mode>,
-}
-
-impl ModesAt {
-    /// Whether the eigenproblem of the speed was solved.
-    fn is_solved(&self) -> bool {
-        let mut modes = self.modes.iter();
-        modes.all(|mode| mode.coordinates.nrows() > 0)
-    }
-
-    fn named(&self, model: &SpectralModel) -> SpeedSample {
-        SpeedSample {
-            speed_rad_per_s: self.speed_rad_per_s,
-            modes: model.name(self.speed_rad_per_s, self.modes.clone()),
-        }
-    }
-
-    /// Index of the mode at a higher speed that continues each mode, see [`links`].
-    fn links(&self, after: &ModesAt, height_rad_per_s: f64) -> Vec<Option<usize>> {
-        let step = after.speed_rad_per_s - self.speed_rad_per_s;
-        links([&self.modes, &after.modes], step, height_rad_per_s)
-    }
-}
-
-/// Modes at one speed of a chart.
-#[derive(Debug, Clone)]
-pub struct SpeedSample {
-    /// Rotation speed Ω.
-    pub speed_rad_per_s: f64,
-    /// Modes with names, ordered by frequency; interpolated ones have no coordinates.
-    pub modes: Vec<NamedMode>,
-}
-
-impl SpeedSample {
-    /// Whether the eigenproblem of the speed was solved.
-    pub fn is_solved(&self) -> bool {
-        let mut modes = self.modes.iter();
-        modes.all(|named| named.mode.coordinates.nrows() > 0)
-    }
-}
-
-/// One mode followed over speed.
-#[derive(Debug, Clone, Default)]
-pub struct Branch {
-    /// Index of the sample, and of the mode in it, for consecutive samples.
-    pub points: Vec<(usize, usize)>,
 }
 
 /// Modes and branches over a range of speeds.
@@ -251,7 +199,10 @@ impl Campbell {
 fn followed(samples: &[ModesAt], height_rad_per_s: f64) -> Vec<Branch> {
     let links: Vec<Vec<Option<usize>>> = samples
         .par_windows(2)
-        .map(|pair| pair[0].links(&pair[1], height_rad_per_s))
+        .map(|pair| {
+            let step = pair[1].speed_rad_per_s - pair[0].speed_rad_per_s;
+            links([&pair[0].modes, &pair[1].modes], step, height_rad_per_s)
+        })
         .collect();
     let mut branches: Vec<Branch> = Vec::new();
     // `current` contains, for each mode of the previous sample, the index of its branch.

@@ -1,12 +1,12 @@
 //! Names of the modes along branches.
 //!
 //! The waves of a mode change over speed far more slowly than a drawn line needs points. A mode is named where its eigenproblem was
-//! solved; an interpolated one has the name of the nearest such point of its branch.
+//! solved; an interpolated one has the waves of the nearest such point of its branch.
 
 use faer::c64;
 use rayon::prelude::*;
 
-use super::{Branch, ModesAt, SpeedSample};
+use super::points::{Branch, ModesAt, SpeedSample};
 use crate::modes::{ModeName, NamedMode, SpectralModel, SpectrumError, smallest};
 
 /// Samples with names, from the branches through all their modes.
@@ -39,7 +39,8 @@ pub fn named(
         }
         for &(at, mode) in points.iter().filter(|(at, _)| solved[*at].is_none()) {
             let away = |known: &&(f64, ModeName)| (known.0 - samples[at].speed_rad_per_s).abs();
-            taken[at][mode] = smallest(&known, away).map(|(_, name)| name.clone());
+            let nearest = smallest(&known, away);
+            taken[at][mode] = nearest.map(|(_, name)| name.of_same_waves(&samples[at].modes[mode]));
         }
     }
     let all = samples.into_iter().zip(solved).zip(taken);

@@ -2,7 +2,9 @@
 
 use rayon::prelude::*;
 
-use super::{CampbellError, ModesAt, room_for_more};
+use super::links::{are_certain, links};
+use super::points::ModesAt;
+use super::{CampbellError, room_for_more};
 use crate::modes::{Mode, ModeKind, SpectralModel};
 
 /// Accuracy of the lines of a chart.
@@ -90,7 +92,7 @@ fn is_doubtful(
     if step < LEAST_STEP * after.speed_rad_per_s {
         return false;
     }
-    let links = before.links(after, height);
+    let links = links([&before.modes, &after.modes], step, height);
     let ends_inside = |modes: &[Mode], is_linked: &dyn Fn(usize) -> bool| {
         let mut left = modes.iter().enumerate().filter(|(k, _)| !is_linked(*k));
         left.any(|(_, mode)| mode.frequency_rad_per_s() < (1.0 - closeness.end) * height)
@@ -103,6 +105,7 @@ fn is_doubtful(
     ends_inside(&before.modes, &|k| links[k].is_some())
         || ends_inside(&after.modes, &|k| links.contains(&Some(k)))
         || links.iter().enumerate().any(doubtful)
+        || !are_certain([&before.modes, &after.modes], step, &links)
 }
 
 /// Distance, in rad/s, in the middle of a step between the cubic through two frequencies with their slopes

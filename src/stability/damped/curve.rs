@@ -257,6 +257,7 @@ mod tests {
             plane: Plane::Eigenvalues,
             top_rad_per_s: 20.0,
             tolerance: 1e-3,
+            definite_tolerance: 0.05,
             growth_tolerance: 0.01,
             noise_per_s: 1e-9,
             solve: &solve,

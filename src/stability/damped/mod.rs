@@ -6,7 +6,6 @@
 //! where Re λ = 0, where a complex pair turns into two real eigenvalues or back, and at the smallest growth
 //! between two humps ([`hump`]).
 
-mod between;
 mod counts;
 mod curve;
 mod hump;
@@ -15,23 +14,24 @@ mod spectrum;
 use rayon::prelude::*;
 
 use super::band::{CurvePoint, Instability};
+use super::between::{Between, settled};
 use super::certificate::Certificate;
 use super::detail::Detail;
+use super::diagram::{DrawnSpeeds, drawn};
 use super::error::AnalysisError;
+use super::group::Sloped;
 use super::options::AnalysisOptions;
 use super::pieces::{Piece, Search};
 use super::sample::Plane;
 use super::search_result::{FoundBands, StabilityChart};
-use super::undamped::with_critical_speeds;
 use crate::model::evenly_spaced;
 use crate::model::scene::SpeedRange;
 use crate::model::tuning::Tuned;
 use crate::modes::branches::{self, ModesAt};
-use crate::modes::{Mode, SpectralModel, SpectrumError, clear_range, smallest};
-use between::Between;
+use crate::modes::{Mode, SpectralModel, SpectrumError, clear_range};
 use counts::Counts;
 pub(super) use counts::counted_in_window;
-use spectrum::{Component, Solver, Spectrum, noise};
+use spectrum::{Component, Solver, Spectrum, finite, noise};
 
 /// Allowed distance of straight lines from a drawn curve of growth, as a share of its peak, both on a
 /// square-root scale, which shows slow growth beside fast growth.
@@ -40,56 +40,22 @@ const DRAWN: Tuned = Tuned::new("stability/damped::DRAWN", 0.02);
 /// Subdivisions of a cubic between two points of a curve for the comparison with straight lines.
 const PARTS: u32 = 4;
 
-/// Finds the bands with their checks, and reads the chart off the pieces of their search: modes near `count` even speeds with their
-/// shapes, and at as many speeds between as lines need. Shapes at the peaks of bands and beside critical speeds are computed.
+/// Finds the bands with their checks, and draws them with the modes between.
 pub(super) fn charted(
     model: &SpectralModel,
     range: SpeedRange,
     count: usize,
     options: AnalysisOptions<'_>,
 ) -> Result<StabilityChart, AnalysisError> {
-    let detail = options.detail;
-    let drawn = clear_range(&model.critical, range);
-    let even = evenly_spaced(drawn.ends(), count);
-    let speeds = with_critical_speeds(&model.plate, &model.critical, drawn, even);
-    branches::check_room(model, &speeds)?;
-    let (found, between, seen) = searched_bands(model, range, detail)?;
+    let speeds = DrawnSpeeds::new(model, clear_range(&model.critical, range), count);
+    branches::check_room(model, &speeds.all)?;
+    let (found, between, seen) = searched_bands(model, range, options.detail)?;
     options.report(&model.critical, range, Some(&found.instabilities));
-    let (mut samples, mut open) = served(&speeds, seen);
-    open.extend(found.instabilities.iter().map(|band| band.peak_rad_per_s));
-    samples.extend(branches::sample(model, &open, options.progress)?);
-    let share = Closeness::of(detail).drawn;
-    let of_bands = found.instabilities.iter();
-    let of_bands = of_bands.flat_map(|band| drawn_speeds(band, share));
-    samples.extend(between.at_all(&of_bands.collect::<Vec<_>>())?);
-    samples.sort_by(|x, y| x.speed_rad_per_s.total_cmp(&y.speed_rad_per_s));
-    // Of equal speeds the computed one is first.
-    samples.dedup_by(|next, last| next.speed_rad_per_s == last.speed_rad_per_s);
-    let at = |speeds: &[f64]| between.at_all(speeds);
-    let samples = branches::refined(model, samples, detail.closeness(), at)?;
-    Ok(StabilityChart::new(model, samples, found)?)
-}
-
-/// Those of computed samples that take the place of speeds of a chart, because they are nearer to them than half the distance to
-/// their neighbours, and the speeds without one. The ends of the chart are kept exactly.
-fn served(speeds: &[f64], seen: Vec<ModesAt>) -> (Vec<ModesAt>, Vec<f64>) {
-    let mut taken = vec![false; seen.len()];
-    let mut open = Vec::new();
-    for (k, &speed) in speeds.iter().enumerate() {
-        let off = |at: &usize| (seen[*at].speed_rad_per_s - speed).abs();
-        let to_neighbour = match k.checked_sub(1).zip(speeds.get(k + 1)) {
-            Some((before, after)) => (speed - speeds[before]).min(after - speed),
-            None => 0.0,
-        };
-        let nearest = smallest(0..seen.len(), off).filter(|at| off(at) <= 0.5 * to_neighbour);
-        match nearest {
-            Some(at) => taken[at] = true,
-            None => open.push(speed),
-        }
-    }
-    let kept = seen.into_iter().zip(taken);
-    let kept = kept.filter_map(|(sample, is_taken)| is_taken.then_some(sample));
-    (kept.collect(), open)
+    let share = Closeness::of(options.detail).drawn;
+    let bands = found.instabilities.iter();
+    let beside: Vec<f64> = bands.flat_map(|band| drawn_speeds(band, share)).collect();
+    let seen = speeds.thinned(seen);
+    drawn(&between, &speeds, seen, &beside, found, options)
 }
 
 /// Number of even speeds at the start of the search.
@@ -187,15 +153,39 @@ fn searched_bands(
     };
     let pieces = searched.into_iter().enumerate();
     let parts = pieces.map(|(index, (pieces, _))| (solver.component(index).index, pieces));
+    let parts: Vec<(usize, Vec<Piece>)> = parts.collect();
+    let interpolated = move |speed: f64| {
+        let parts = parts.iter();
+        let modes =
+            parts.map(|(component, pieces)| modes_of_part(model, *component, pieces, speed));
+        let modes: Vec<Vec<Mode>> = modes.collect::<Option<_>>()?;
+        Some(modes.concat())
+    };
     let between = Between {
         model,
-        parts: parts.collect(),
+        interpolated: Box::new(interpolated),
     };
     let found = FoundBands {
         instabilities,
         certificate,
     };
     Ok((found, between, solver.into_seen()))
+}
+
+/// Modes of a part of a component at a speed of its pieces; `None` if the search did not settle there.
+fn modes_of_part(
+    model: &SpectralModel,
+    component: usize,
+    pieces: &[Piece],
+    speed: f64,
+) -> Option<Vec<Mode>> {
+    let groups = settled(pieces, speed)?.groups.iter();
+    let numbers: Vec<Sloped> = groups
+        .flat_map(|grouped| grouped.group.sloped_at(speed))
+        .collect();
+    let seen = curve::upper(&numbers, model.complete_to_rad_per_s).into_iter();
+    let mode = |(lambda, slope)| Mode::interpolated(lambda, finite(slope), component);
+    Some(seen.map(mode).collect())
 }
 
 /// Pieces of one component of the saw, and its bands.
@@ -210,6 +200,7 @@ fn searched(
         plane: Plane::Eigenvalues,
         top_rad_per_s: solver.highest(),
         tolerance,
+        definite_tolerance: tolerance,
         growth_tolerance: tolerance,
         noise_per_s: solver.noise(),
         solve: &solve,

@@ -7,20 +7,17 @@ use rayon::prelude::*;
 
 use faer::c64;
 
-use crate::model::tuning::Tuned;
+use super::extent::Extent;
 use crate::modes::branches::ModesAt;
-use crate::modes::{DoubleEigenvalue, Mode, SpectralModel, SpectrumError, krein_index, smallest};
-use crate::stability::certificate::Certificate;
+use crate::modes::{
+    DoubleEigenvalue, Mode, ModeKind, SpectralModel, SpectrumError, krein_index, smallest,
+};
+use crate::stability::certificate::{Certificate, GROWTH_FLOOR};
+use crate::stability::critical_sides::CRITICAL_GAP;
 use crate::stability::group::Sloped;
 use crate::stability::growth_curve::Numbers;
 use crate::stability::sample::{BESIDES, Plane, Sample, squared};
 
-/// Relative distance of the search from critical speeds: λ² passes through zero there and is accurate only to
-/// 1e-15 of the stiffness.
-pub const CRITICAL_GAP: Tuned = Tuned::new("stability/undamped/checked_modes::CRITICAL_GAP", 5e-6);
-/// Critical speeds at a smaller relative distance are passed in one step of the search. The divergence
-/// between them grows by less than 0.01 1/s; the inertia of the stiffness shows that it exists.
-pub const CRITICAL_GROUP: f64 = 2e-5;
 /// Largest number of speeds in a search, twenty times as many as usual saws need. It limits the time if modes
 /// cannot be distinguished.
 const MOST_SPEEDS: usize = 20_000;
@@ -75,6 +72,8 @@ impl Numbers for CheckedModes<'_> {
 /// Computes modes, checks the Krein index of each speed, and counts the speeds.
 pub struct CheckedModes<'a> {
     model: &'a SpectralModel,
+    /// What the search follows.
+    pub extent: Extent,
     tally: Tally,
     /// Modes at the speeds of the search.
     seen: Mutex<Vec<ModesAt>>,
@@ -83,10 +82,11 @@ pub struct CheckedModes<'a> {
 }
 
 impl<'a> CheckedModes<'a> {
-    /// An checked for an undamped blade.
-    pub fn new(model: &'a SpectralModel) -> Self {
+    /// The modes of an undamped blade, to be followed by a search.
+    pub fn new(model: &'a SpectralModel, extent: Extent) -> Self {
         CheckedModes {
             model,
+            extent,
             tally: Tally::default(),
             seen: Mutex::default(),
             others: Mutex::default(),
@@ -156,7 +156,8 @@ impl<'a> CheckedModes<'a> {
     }
 
     /// Squares of the eigenvalues at a speed, for a search by pieces. `None` next to a critical speed, where
-    /// their signs are rounding, and once the allowed number of speeds is used up.
+    /// their signs are rounding, and once the allowed number of speeds is used up. Below the first critical speed K(Ω) is positive
+    /// definite, and every λ imaginary with the sign +.
     ///
     /// # Errors
     /// [`SpectrumError`] when the eigenproblem fails.
@@ -168,20 +169,22 @@ impl<'a> CheckedModes<'a> {
             return Ok(None);
         }
         let solved = self.checked(speed_rad_per_s)?;
-        let sample = self.followed(&solved);
+        let mut sample = self.followed(&solved);
+        if self.model.negative_stiffness_directions(speed_rad_per_s) == 0 {
+            sample.set_definite();
+        }
         if let Ok(mut seen) = self.seen.lock() {
             seen.push(solved);
         }
         Ok(Some(sample))
     }
 
-    /// The modes up to the height of the search and [`BESIDES`] above, with a wave far above, because the reduced model may have
+    /// The modes up to the top of the search and [`BESIDES`] above, with a wave far above, because the reduced model may have
     /// none there, in whose gap the search could end.
     fn followed(&self, solved: &ModesAt) -> Sample {
         let mut followed: Vec<&Mode> = solved.modes.iter().collect();
         followed.sort_by(|x, y| x.lambda.im.total_cmp(&y.lambda.im));
-        let height = self.height_rad_per_s();
-        let below = followed.partition_point(|mode| mode.lambda.im <= height);
+        let below = followed.partition_point(|mode| mode.lambda.im <= self.top_rad_per_s());
         followed.truncate(below + BESIDES);
         let fence = FENCE * self.model.complete_to_rad_per_s;
         followed.retain(|mode| mode.lambda.im < fence);
@@ -212,7 +215,12 @@ impl<'a> CheckedModes<'a> {
         all
     }
 
-    /// Frequency up to which samples are complete.
+    /// Frequency up to which the search follows modes.
+    pub fn top_rad_per_s(&self) -> f64 {
+        self.extent.top_rad_per_s(self.model)
+    }
+
+    /// Frequency up to which modes are counted, beyond which no wave is reflected.
     pub fn height_rad_per_s(&self) -> f64 {
         self.model.reflected_to_rad_per_s
     }
@@ -238,7 +246,15 @@ impl<'a> CheckedModes<'a> {
         let negative = self
             .model
             .negative_stiffness_directions(solved.speed_rad_per_s);
-        krein_index(&solved.modes) == negative
+        if negative > 0 {
+            return krein_index(&solved.modes) == negative;
+        }
+        // Of a positive definite K(Ω) a double eigenvalue may seem to grow by rounding.
+        let mut modes = solved.modes.iter();
+        modes.all(|mode| match mode.kind {
+            ModeKind::Flutter => mode.lambda.re < GROWTH_FLOOR * mode.lambda.norm(),
+            kind => kind.krein_index() == 0,
+        })
     }
 
     /// Samples at many speeds, in parallel.

@@ -2,6 +2,7 @@
 
 use faer::c64;
 
+use crate::stability::group::Sloped;
 use crate::stability::pieces::{Grouped, Piece};
 use crate::stability::sample::Sample;
 
@@ -11,27 +12,31 @@ impl Piece {
     pub fn sample_at(&self, speed_rad_per_s: f64) -> Option<Sample> {
         let mut squares = vec![((c64::from(f64::NEG_INFINITY), c64::ZERO), 1)];
         for grouped in &self.groups {
-            let mut numbers = grouped.group.sloped_at(speed_rad_per_s);
-            if grouped.sign.is_some() {
-                // Waves of one sign cannot coalesce: where they cross, an imaginary part is an error of the interpolation.
-                let real = numbers
-                    .iter_mut()
-                    .flat_map(|(square, slope)| [square, slope]);
-                real.for_each(|number| number.im = 0.0);
-            }
-            numbers.sort_by(|x, y| x.0.re.total_cmp(&y.0.re));
-            let is_wave = |square: c64| square.im == 0.0 && square.re < 0.0;
-            let count = numbers
-                .iter()
-                .filter(|(square, _)| is_wave(*square))
-                .count();
-            let mut signs = self.signs(grouped, count)?.into_iter();
-            for number in numbers {
-                let sign = if is_wave(number.0) { signs.next()? } else { 0 };
-                squares.push((number, sign));
-            }
+            squares.extend(self.squares_at(grouped, speed_rad_per_s)?);
         }
         (!self.groups.is_empty()).then(|| Sample::of_squares(speed_rad_per_s, squares))
+    }
+
+    /// Squares of a group at a speed of the piece, with the Krein sign of each wave and zero for other numbers. `None` if the piece
+    /// does not show which of two waves has which sign.
+    pub fn squares_at(&self, grouped: &Grouped, speed_rad_per_s: f64) -> Option<Vec<(Sloped, i8)>> {
+        let mut numbers = grouped.group.sloped_at(speed_rad_per_s);
+        if grouped.sign.is_some() {
+            // Waves of one sign cannot coalesce: where they cross, an imaginary part is an error of the interpolation.
+            let real = numbers
+                .iter_mut()
+                .flat_map(|(square, slope)| [square, slope]);
+            real.for_each(|number| number.im = 0.0);
+        }
+        numbers.sort_by(|x, y| x.0.re.total_cmp(&y.0.re));
+        let is_wave = |square: c64| square.im == 0.0 && square.re < 0.0;
+        let waves = numbers.iter().filter(|(square, _)| is_wave(*square));
+        let mut signs = self.signs(grouped, waves.count())?.into_iter();
+        let signed = numbers.into_iter().map(|number| {
+            let sign = if is_wave(number.0) { signs.next()? } else { 0 };
+            Some((number, sign))
+        });
+        signed.collect()
     }
 
     /// Krein signs of the `count` waves of a group somewhere in the piece, by ascending λ². `None` if the ends do not

@@ -130,13 +130,18 @@ fn nodes(campbell: &Campbell, band: &Instability, range: SpeedRange) -> Option<V
         let is_inside = band.range().contains(node.speed);
         (is_inside == (node.square[0] < 0.0)).then_some(node)
     };
-    // The cubics to the ends of the range need a sample at or beyond each.
-    let above = |end: f64| samples.partition_point(|sample| sample.speed_rad_per_s < end);
+    // Computed samples only; the cubics to the ends of the range need one at or beyond each.
+    let solved: Vec<usize> = (0..samples.len())
+        .filter(|at| samples[*at].is_solved())
+        .collect();
+    let above = |end: f64| solved.partition_point(|at| samples[*at].speed_rad_per_s < end);
     let first = above(range.from_rad_per_s).saturating_sub(1);
-    let last = above(range.to_rad_per_s).min(samples.len() - 1);
-    let mut nodes: Vec<Node> = (first..=peak).rev().map_while(node).collect();
+    let last = (above(range.to_rad_per_s) + 1).min(solved.len());
+    let (below, beyond) =
+        solved[first..last].split_at(solved[first..last].partition_point(|at| *at <= peak));
+    let mut nodes: Vec<Node> = below.iter().rev().copied().map_while(node).collect();
     nodes.reverse();
-    nodes.extend((peak + 1..=last).map_while(node));
+    nodes.extend(beyond.iter().copied().map_while(node));
     (!nodes.is_empty()).then_some(nodes)
 }
 

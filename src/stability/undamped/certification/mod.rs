@@ -3,13 +3,14 @@
 use rayon::prelude::*;
 
 use super::checked_modes::CheckedModes;
+use super::extent::Extent;
 use super::growing::growing;
 use super::proof::Proof;
 use crate::model::scene::{Accuracy, SpeedRange};
 use crate::modes::branches::ModesAt;
 use crate::modes::{SpectralModel, SpectrumError};
 use crate::stability::band::Instability;
-use crate::stability::certificate::{Certificate, ContradictedBands, mismatches};
+use crate::stability::certificate::{Certificate, GROWTH_FLOOR, contradictions};
 use crate::stability::instability_kind::InstabilityKind;
 use crate::stability::mode_counts::{MiscountedModes, ModeCounts};
 use crate::stability::pieces::{Piece, Search};
@@ -36,9 +37,9 @@ impl Depth {
     }
 }
 
-/// Relative error allowed for the square of an eigenvalue between two speeds of the search, which only
-/// locates the bands.
+/// Relative error allowed for the square of an eigenvalue that may coalesce, between two speeds of the search.
 const SQUARE_TOLERANCE: f64 = 1e-3;
+
 /// Relative error allowed for a growth rate between two speeds of the search.
 const GROWTH_TOLERANCE: f64 = 0.05;
 /// Share of |ω| + Ω below which a growth rate is rounding.
@@ -65,17 +66,19 @@ pub fn bands(
     range: SpeedRange,
     speeds: &[f64],
     depth: Depth,
+    extent: Extent,
 ) -> Result<Searched, SpectrumError> {
-    let searched_once = searched(model, range, speeds, depth)?;
+    let searched_once = searched(model, range, speeds, depth, extent)?;
     if searched_once.found.certificate.miscounts.is_empty() {
         return Ok(searched_once);
     }
     let more = model.with_more_waves()?;
-    let mut found = searched(&more, range, speeds, depth)?.found;
+    let mut found = searched(&more, range, speeds, depth, extent)?.found;
     found.certificate.searched_again = true;
     Ok(Searched {
         found,
         solved: Vec::new(),
+        pieces: Vec::new(),
     })
 }
 
@@ -85,6 +88,8 @@ pub struct Searched {
     pub found: FoundBands,
     /// Modes of the model at the speeds of the search; empty if more waves were needed.
     pub solved: Vec<ModesAt>,
+    /// Pieces between these speeds; empty for a free blade, too.
+    pub pieces: Vec<Piece>,
 }
 
 /// Bands and certificate by one search.
@@ -93,8 +98,9 @@ fn searched(
     range: SpeedRange,
     speeds: &[f64],
     depth: Depth,
+    extent: Extent,
 ) -> Result<Searched, SpectrumError> {
-    let checked = CheckedModes::new(model);
+    let checked = CheckedModes::new(model, extent);
     let Some(full) = ModeCounts::new(model) else {
         checked.at_all(speeds)?;
         // A free blade has no counts. Its waves are uncoupled, so they cross and never coalesce.
@@ -109,11 +115,13 @@ fn searched(
         return Ok(Searched {
             found,
             solved: checked.into_solved(),
+            pieces: Vec::new(),
         });
     };
     let pieces = searched_pieces(&checked, speeds)?;
-    let samples = checked.samples();
     let critical: Vec<f64> = model.critical.iter().map(|c| c.speed_rad_per_s).collect();
+    let mut samples = checked.samples();
+    samples.drain(..last_below(&critical, samples.iter().map(|at| at.speed_rad_per_s)));
     let found: Vec<Found> = growing(&checked, &pieces, &critical)?
         .par_iter()
         .map(|stretch| stretch.found(&checked, range))
@@ -148,7 +156,16 @@ fn searched(
             certificate,
         },
         solved: checked.into_solved(),
+        pieces,
     })
+}
+
+/// Index of the last of ascending speeds below the first critical one. Below it nothing can be unstable: K(Ω) is positive
+/// definite, no wave is reflected, and the Krein index is zero.
+pub fn last_below(critical: &[f64], speeds: impl Iterator<Item = f64>) -> usize {
+    let lowest = critical.first().copied().unwrap_or(f64::INFINITY);
+    let below = speeds.take_while(|speed| *speed < lowest).count();
+    below.saturating_sub(1)
 }
 
 /// Pieces of a search between the first and the last of some speeds.
@@ -156,12 +173,13 @@ fn searched_pieces(
     checked: &CheckedModes<'_>,
     speeds: &[f64],
 ) -> Result<Vec<Piece>, SpectrumError> {
-    let top_rad_per_s = checked.height_rad_per_s();
+    let top_rad_per_s = checked.top_rad_per_s();
     let last = speeds.last().copied().unwrap_or(0.0);
     let search = Search {
         plane: Plane::Squares,
         top_rad_per_s,
         tolerance: SQUARE_TOLERANCE,
+        definite_tolerance: checked.extent.definite_tolerance(),
         growth_tolerance: GROWTH_TOLERANCE,
         noise_per_s: GROWTH_NOISE * (top_rad_per_s + last),
         solve: &|speed| checked.sample(speed),
@@ -318,24 +336,6 @@ pub fn drawn_share(k: u64) -> f64 {
     z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
     z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
     ((z ^ (z >> 31)) >> 11) as f64 / (1_u64 << 53) as f64
-}
-
-/// Share of |ω| + Ω below which growth is not compared with the bands: next to a coalescence eigenvalues are
-/// accurate to √ε of the largest frequency of the reduced model.
-pub const GROWTH_FLOOR: f64 = 1e-5;
-
-/// Contradictions between bands and modes at some speeds.
-pub fn contradictions(
-    bands: &[Instability],
-    samples: &[Sample],
-    floor: f64,
-) -> Vec<ContradictedBands> {
-    let of = |sample: &Sample| {
-        let highest = sample.highest_rad_per_s();
-        let floor = floor * (sample.speed_rad_per_s + highest);
-        mismatches(bands, sample, floor)
-    };
-    samples.iter().flat_map(of).collect()
 }
 
 #[cfg(test)]

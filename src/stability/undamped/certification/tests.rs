@@ -29,7 +29,7 @@ struct Sound {
 
 static SOUND: LazyLock<Sound> = LazyLock::new(|| {
     let (model, speeds) = paper(Accuracy::Draft);
-    let found = bands(&model, whole(&speeds), &speeds, Depth::Proof)
+    let found = bands(&model, whole(&speeds), &speeds, Depth::Proof, Extent::Bands)
         .unwrap()
         .found;
     let (bands, certificate) = (found.instabilities, found.certificate);
@@ -44,7 +44,7 @@ static SOUND: LazyLock<Sound> = LazyLock::new(|| {
 
 /// Certificate of a list of bands, which may be wrong, with samples that a function may make wrong.
 fn certified(sound: &Sound, bands: &[Instability], change: impl Fn(&mut Sample)) -> Certificate {
-    let checked = CheckedModes::new(&sound.model);
+    let checked = CheckedModes::new(&sound.model, Extent::Bands);
     let pieces = searched_pieces(&checked, &sound.speeds).unwrap();
     let mut samples = checked.samples();
     samples.iter_mut().for_each(change);
@@ -61,7 +61,7 @@ fn certified(sound: &Sound, bands: &[Instability], change: impl Fn(&mut Sample))
 
 /// Bands and certificate without a second search.
 fn searched_once(model: &SpectralModel, speeds: &[f64]) -> FoundBands {
-    searched(model, whole(speeds), speeds, Depth::Counts)
+    searched(model, whole(speeds), speeds, Depth::Counts, Extent::Bands)
         .unwrap()
         .found
 }
@@ -146,9 +146,15 @@ fn a_missing_mode_is_found_and_the_search_repeated_without_it() {
         let FoundBands {
             instabilities: found,
             certificate,
-        } = bands(&model, whole(&speeds), &speeds, Depth::Counts)
-            .unwrap()
-            .found;
+        } = bands(
+            &model,
+            whole(&speeds),
+            &speeds,
+            Depth::Counts,
+            Extent::Bands,
+        )
+        .unwrap()
+        .found;
         assert!(
             certificate.searched_again && certificate.is_clean(),
             "{certificate:?}"

@@ -58,6 +58,7 @@ fn pieces(numbers: &(dyn Fn(f64) -> [Sloped; 2] + Sync), critical: [f64; 2]) -> 
         plane: Plane::Squares,
         top_rad_per_s: 20.0,
         tolerance: 1e-3,
+        definite_tolerance: 0.05,
         growth_tolerance: 0.01,
         noise_per_s: 1e-9,
         solve: &solve,
