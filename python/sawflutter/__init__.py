@@ -20,7 +20,7 @@ from ._result import Result
 from ._scene_types import SceneDict, StudyDict
 from .checks import CheckResults
 from .compared import CompareResults, compare
-from .designs import DesignResults, FitResults, PlaceResults, Speeds, StiffnessMap, TradeoffResults
+from .designs import DesignResults, FitResults, FittedDifference, PlaceResults, Speeds, StiffnessMap, TradeoffResults
 from .errors import (
     AnalysisError,
     ArgumentError,
@@ -59,6 +59,7 @@ __all__ = [
     "DeflectResults",
     "DesignResults",
     "FitResults",
+    "FittedDifference",
     "GapResults",
     "InputError",
     "Instability",
