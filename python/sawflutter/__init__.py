@@ -31,6 +31,7 @@ from .errors import (
     StudyError,
 )
 from .maps import MapResults
+from .margins import MeasuredMargin, measured_margin
 from .matrices import Matrices
 from .modes import Modes
 from .motions import CutResults, DeflectResults, GapResults, ResponseResults, RunUpResults, WashboardResults
@@ -65,6 +66,7 @@ __all__ = [
     "Instability",
     "MapResults",
     "Matrices",
+    "MeasuredMargin",
     "Mode",
     "ModelWarning",
     "Modes",
@@ -93,6 +95,7 @@ __all__ = [
     "compare",
     "keys",
     "load",
+    "measured_margin",
     "read_frf",
     "read_record",
     "schema",

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import io
 import json
 import re
 import sys
@@ -10,7 +11,9 @@ import warnings
 from collections.abc import Callable, Sequence
 from typing import Any, TextIO
 
+from ._extras import extra
 from .errors import AnalysisError, ArgumentError, InputError
+from .plot.chart import Chart
 
 _WIDTH = 80
 
@@ -53,6 +56,19 @@ def wrapped(text: str, indent: str, first: str = "") -> list[str]:
         text, _WIDTH, initial_indent=first, subsequent_indent=indent,
         break_long_words=False, break_on_hyphens=False,
     )  # fmt: skip
+
+
+def png(chart: Chart) -> bytes:
+    """A figure as PNG."""
+    with extra("plot"):
+        import matplotlib
+        from matplotlib import pyplot
+    matplotlib.use("agg")
+    content = io.BytesIO()
+    figure: Any = chart.plot_matplotlib().figure
+    figure.savefig(content, dpi=150, format="png")
+    pyplot.close("all")
+    return content.getvalue()
 
 
 def _warned(

@@ -8,7 +8,6 @@ is printed instead, with exit code 1 and without any file.
 
 from __future__ import annotations
 
-import io
 import json
 import shlex
 import sys
@@ -20,8 +19,7 @@ from typing import Any
 import numpy as np
 
 from . import _files
-from ._command import answered, in_options, wrapped
-from ._extras import extra
+from ._command import answered, in_options, png, wrapped
 from ._measured import titled
 from .errors import ArgumentError, InputError
 from .peaks import Peaks
@@ -159,24 +157,12 @@ def _written(out: Path, found: Sequence[_Read], rows: Sequence[Row]) -> list[str
             number = 2
             while f"{name}.png" in files:
                 name, number = f"{stem}-{number}", number + 1
-            files[f"{name}.png"] = _png(of.chart)
+            files[f"{name}.png"] = png(of.chart)
     # Rows of an earlier run would be taken for those of these files.
     (out / "measured.csv").unlink(missing_ok=True)
     for name, content in files.items():
         (out / name).write_bytes(content)
     return list(files)
-
-
-def _png(chart: Chart) -> bytes:
-    with extra("plot"):
-        import matplotlib
-        from matplotlib import pyplot
-    matplotlib.use("agg")
-    content = io.BytesIO()
-    figure: Any = chart.plot_matplotlib().figure
-    figure.savefig(content, dpi=150, format="png")
-    pyplot.close("all")
-    return content.getvalue()
 
 
 def _text(

@@ -1,27 +1,31 @@
-//! `records` without a Python that has the package; `python/tests` compare its results with known values.
+//! `records` and `margin` without a Python that has the package; `python/tests` compare their results with known values.
 
 use crate::program::{out, sawflutter, text};
 use tempfile::TempDir;
 
 #[test]
-fn records_need_the_python_package() {
-    let folder = TempDir::new().unwrap();
-    let mut command = sawflutter();
-    command.args(["records", "tap.wav", "--rpm", "0", "--out"]);
-    command.arg(out(&folder));
-    let done = command
-        .env("SAWFLUTTER_PYTHON", "no-such-python")
-        .output()
-        .unwrap();
-    assert_eq!(done.status.code(), Some(2));
-    let message = text(&done.stderr);
+fn measured_saws_need_the_python_package() {
     let version = env!("CARGO_PKG_VERSION");
-    let remedy = format!("pip install 'sawflutter[records,plot]=={version}'");
-    assert!(
-        message.contains("there is no no-such-python") && message.contains(&remedy),
-        "{message}"
-    );
-    assert!(!out(&folder).exists());
+    for (arguments, extras) in [
+        (["records", "tap.wav", "--rpm=0"], "records,plot"),
+        (["margin", "scenes/paper.json", "peaks.csv"], "margin,plot"),
+    ] {
+        let folder = TempDir::new().unwrap();
+        let mut command = sawflutter();
+        command.args(arguments).arg("--out").arg(out(&folder));
+        let done = command
+            .env("SAWFLUTTER_PYTHON", "no-such-python")
+            .output()
+            .unwrap();
+        assert_eq!(done.status.code(), Some(2));
+        let message = text(&done.stderr);
+        let remedy = format!("pip install 'sawflutter[{extras}]=={version}'");
+        assert!(
+            message.contains("there is no no-such-python") && message.contains(&remedy),
+            "{message}"
+        );
+        assert!(!out(&folder).exists());
+    }
 }
 
 #[test]
