@@ -20,7 +20,7 @@ from ._result import Result
 from ._scene_types import SceneDict, StudyDict
 from .checks import CheckResults
 from .compared import CompareResults, compare
-from .designs import DesignResults, FitResults, PlaceResults, Speeds, StiffnessMap, TradeoffResults
+from .designs import DesignResults, FitResults, FittedDifference, PlaceResults, Speeds, StiffnessMap, TradeoffResults
 from .errors import (
     AnalysisError,
     ArgumentError,
@@ -31,6 +31,7 @@ from .errors import (
     StudyError,
 )
 from .maps import MapResults
+from .margins import MeasuredMargin, measured_margin
 from .matrices import Matrices
 from .modes import Modes
 from .motions import CutResults, DeflectResults, GapResults, ResponseResults, RunUpResults, WashboardResults
@@ -59,11 +60,13 @@ __all__ = [
     "DeflectResults",
     "DesignResults",
     "FitResults",
+    "FittedDifference",
     "GapResults",
     "InputError",
     "Instability",
     "MapResults",
     "Matrices",
+    "MeasuredMargin",
     "Mode",
     "ModelWarning",
     "Modes",
@@ -92,6 +95,7 @@ __all__ = [
     "compare",
     "keys",
     "load",
+    "measured_margin",
     "read_frf",
     "read_record",
     "schema",

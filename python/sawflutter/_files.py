@@ -28,6 +28,12 @@ def read_responses(path: str | os.PathLike[str]) -> list[ResponseFunction]:
     return _by_ending(path, {"csv": _tables.read_response, "uff": _universal.read_responses})
 
 
+def holds_response(path: str | os.PathLike[str]) -> bool:
+    """Whether a file has a frequency response instead of channels over time."""
+    readers = {"wav": lambda _: False, "csv": _tables.holds_response, "uff": _universal.holds_response}
+    return _by_ending(path, readers)
+
+
 def _by_ending(
     path: str | os.PathLike[str], readers: dict[str, Callable[[str | os.PathLike[str]], T]]
 ) -> T:

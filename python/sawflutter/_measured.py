@@ -50,6 +50,12 @@ def lines(measured: Any) -> str:
     return "".join(f"{','.join(row)}\n" for row in _names(measured) + cells)
 
 
+def titled(rows: Sequence[tuple[float, Sequence[float]]]) -> str:
+    """The table of rows with its titles."""
+    most = max((len(hz) for _, hz in rows), default=0)
+    return f"{','.join(['rpm', *(f'f{place}' for place in range(1, most + 1))])}\n{lines(rows)}"
+
+
 def _names(measured: Any) -> list[list[str]]:
     """The line of names of a data frame whose columns are named by nodal diameters; the others have ascending frequencies."""
     names = [str(name) for name in getattr(measured, "columns", []) if name != "rpm"]

@@ -64,6 +64,15 @@ def read(path: str | os.PathLike[str]) -> Channels:
     return Channels(str(path), rate, others)
 
 
+def holds_response(path: str | os.PathLike[str]) -> bool:
+    """Whether a table has frequencies and no times."""
+    columns = _columns(path)
+    if any(_is_time(column) and factor(HERTZ, column.unit) is None for column in columns):
+        return False
+    kinds = [kind for kind, column in map(_of_response, columns) if not column.unit or factor(HERTZ, column.unit)]
+    return "frequency" in kinds
+
+
 def of_times(path: str | os.PathLike[str], times: FloatArray, unit: str) -> float:
     """The sample rate of evenly spaced times."""
     seconds = known_factor(SECONDS, unit, f"times of {path}") * times

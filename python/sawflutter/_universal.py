@@ -75,16 +75,16 @@ def read_responses(path: str | os.PathLike[str]) -> list[ResponseFunction]:
     return responses
 
 
+def holds_response(path: str | os.PathLike[str]) -> bool:
+    """Whether a file has a frequency response."""
+    return any(of.kind == _RESPONSE_FUNCTION for of in _all_sets(path))
+
+
 def _sets(
     path: str | os.PathLike[str], kinds: tuple[int, ...], abscissa: int, wanted: str
 ) -> list[_Set]:
     """The data sets 58 of some types of function."""
-    sets = list[_Set]()
-    try:
-        for header, body, binary in _blocks(Path(path).read_bytes().removeprefix(b"\xef\xbb\xbf")):
-            sets.append(_set(header, body, binary))
-    except ValueError as error:
-        raise InputError(f"data set 58 number {len(sets) + 1} of {path} cannot be read: {error}") from None
+    sets = _all_sets(path)
     found = [of for of in sets if of.kind in kinds and of.kind_of_abscissa in (0, 1, abscissa)]
     if not found:
         others = ", ".join(sorted({f"{of.kind} over {of.kind_of_abscissa}" for of in sets})) or "no data set 58"
@@ -93,6 +93,17 @@ def _sets(
             f"over abscissas of the type {abscissa}), but {others}; export it with one"
         )
     return found
+
+
+def _all_sets(path: str | os.PathLike[str]) -> list[_Set]:
+    """The data sets 58 of a file."""
+    sets = list[_Set]()
+    try:
+        for header, body, binary in _blocks(Path(path).read_bytes().removeprefix(b"\xef\xbb\xbf")):
+            sets.append(_set(header, body, binary))
+    except ValueError as error:
+        raise InputError(f"data set 58 number {len(sets) + 1} of {path} cannot be read: {error}") from None
+    return sets
 
 
 def _blocks(content: bytes) -> Iterator[tuple[list[str], bytes, list[int]]]:

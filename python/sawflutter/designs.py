@@ -5,6 +5,7 @@ from __future__ import annotations
 
 import json
 from dataclasses import dataclass
+from math import hypot
 from typing import Any
 
 from . import _native
@@ -13,6 +14,7 @@ from ._entry import Entry, FloatArray
 from ._report_types import DesignReport, FitReport, Instability, PlaceReport, Setting
 from ._result import Report, Result
 from ._values import Number, number
+from .errors import refused
 
 
 class FitResults(Result, FitReport):
@@ -23,6 +25,92 @@ class FitResults(Result, FitReport):
     def _answer(self) -> str:
         found = ", ".join(f"{found.path} = {found.value:.4g}" for found in self.parameters)
         return f"{super()._answer()}: {found}; {self.rms_hz:.3f} Hz rms, before {self.rms_before_hz:.3f} Hz"
+
+
+    def differs_from(self, other: FitResults, path: str) -> FittedDifference:
+        """Whether a number differs between two saws, such as the tension of two blades, by their intervals.
+
+        The interval of the difference is that of two independent estimates: each end has the root of the
+        sum of the squares of the two half widths towards each other (G. Y. Zou and A. Donner, *Statistics
+        in Medicine* 27, 1693, 2008). Intervals of single numbers may overlap where the difference has one
+        without zero.
+
+        Parameters
+        ----------
+        other : FitResults
+            The fit of the other saw, with the same confidence.
+        path : str
+            Path of a number that both fits have determined.
+
+        Examples
+        --------
+        >>> import sawflutter as sf
+        >>> band = {"radius_m": 0.22, "width_m": 0.02, "eigenstrain": 2e-4}
+        >>> blade = sf.Scene.paper().replace({"accuracy": "draft", "membrane": {"roll_tension": [band]}})
+        >>> strain = "membrane.roll_tension[0].eigenstrain"
+        >>> taps = [blade.replace({strain: value}).modes(0).frequency_hz[:6].round(1) for value in (2e-4, 3e-4)]
+        >>> first, second = (blade.fit(hz, free={strain: (0, 6e-4)}, starts=1) for hz in taps)
+        >>> first.differs_from(second, strain).differs, first.differs_from(first, strain).differs
+        (True, False)
+        """
+        if self.confidence != other.confidence:
+            remedy = "fit both with the same confidence"
+            raise refused("other", other.confidence, f"a fit with the confidence {self.confidence:g}", remedy)
+        (value, below, above), (of_other, below_other, above_other) = (
+            _interval(of, path) for of in (self, other)
+        )
+        difference = value - of_other
+        from_, to = difference - hypot(below, above_other), difference + hypot(above, below_other)
+        is_one_of_several = bool(self.other_minima or other.other_minima)
+        return FittedDifference(path, difference, from_, to, self.confidence, is_one_of_several)
+
+
+def _interval(of: FitResults, path: str) -> tuple[float, float, float]:
+    """Value of a fitted number, and the widths of its interval below and above it."""
+    found = next((number for number in of.parameters if number.path == path), None)
+    if found is None:
+        named = ", ".join(number.path for number in of.parameters)
+        raise refused("path", path, f"a number of both fits ({named})", "free it in both")
+    if found.interval_from is None or found.interval_to is None:
+        why = "at its bound" if found.at_bound else "not determined"
+        remedy = "give it wider bounds, or measure more frequencies"
+        raise refused("path", path, f"a number with an interval, but it is {why} in a fit", remedy)
+    return found.value, found.value - found.interval_from, found.interval_to - found.value
+
+
+@dataclass(frozen=True)
+class FittedDifference:
+    """Difference of a number of two fitted saws, of :meth:`FitResults.differs_from`.
+
+    Attributes
+    ----------
+    path : path of the number.
+    difference : value of the first saw minus that of the other one.
+    interval_from, interval_to : interval of the difference.
+    confidence : probability that the interval contains the true difference.
+    is_one_of_several : whether another saw fits one of the measurements about as well; the interval
+        then holds for the best ones.
+    """
+
+    path: str
+    difference: float
+    interval_from: float
+    interval_to: float
+    confidence: float
+    is_one_of_several: bool
+
+    @property
+    def differs(self) -> bool:
+        """Whether zero is outside of the interval."""
+        return not self.interval_from <= 0.0 <= self.interval_to
+
+    def __str__(self) -> str:
+        answer = "differs" if self.differs else "is not shown to differ"
+        condition = ", if these are the saws" if self.is_one_of_several else ""
+        return (
+            f"{self.path} {answer}: {self.difference:+.4g} ({100 * self.confidence:g} % interval "
+            f"{self.interval_from:.4g} … {self.interval_to:.4g}{condition})"
+        )
 
 
 class PlaceResults(Result, PlaceReport):

@@ -12,7 +12,7 @@ import numpy as np
 
 from ._entry import Entry, FloatArray, IntArray, array
 from ._extras import extra, frame
-from ._measured import lines
+from ._measured import titled
 from ._picking import peak_rows
 from ._values import Number, number
 from .errors import ArgumentError, refused
@@ -126,10 +126,7 @@ class Peaks(Entry):
     def to_csv(self, path: str | os.PathLike[str], rows: Sequence[tuple[float, Sequence[float]]]) -> None:
         """Writes ``rows``, the result of :meth:`rows` or several such lists in one, as a table for
         ``sawflutter fit`` to a path, with blanks for NaN."""
-        most = max((len(hz) for _, hz in rows), default=0)
-        names = ",".join(["rpm", *(f"f{place}" for place in range(1, most + 1))])
-        text = f"{names}\n{lines(rows)}"
-        Path(path).write_text(text, encoding="utf-8", newline="\n")
+        Path(path).write_text(titled(rows), encoding="utf-8", newline="\n")
 
     def to_dataframe(self) -> pd.DataFrame:
         """The peaks as a table; needs pandas."""

@@ -69,6 +69,25 @@ def read_record(
     >>> record.unit, record.rate_hz, record.rpm.tolist()
     ('mm', 2.0, [0.0, 10.0, 20.0])
     """
+    return read_signal(
+        path, signal=signal, rpm=rpm, speed=speed, tacho=tacho, pulses_per_turn=pulses_per_turn,
+        rate_hz=rate_hz, unit=unit, scale=scale,
+    )[0]  # fmt: skip
+
+
+def read_signal(
+    path: str | os.PathLike[str],
+    *,
+    signal: str | int | None,
+    rpm: npt.ArrayLike | None,
+    speed: str | int | None,
+    tacho: str | int | None,
+    pulses_per_turn: int,
+    rate_hz: Number | None,
+    unit: str | None = None,
+    scale: Number = 1.0,
+) -> tuple[Record, str]:
+    """The record of :func:`read_record`, and the name of its channel."""
     found = _files.read(path)
     given = [name for name, of in (("rpm", rpm), ("speed", speed), ("tacho", tacho)) if of is not None]
     if len(given) > 1:
@@ -91,9 +110,8 @@ def read_record(
     else:
         speeds = speed_of(turning.samples, rate, pulses_per_turn)
     samples = number("scale", scale) * chosen.samples
-    return Record(
-        samples, rate, speeds, unit=chosen.unit if unit is None else unit, name=Path(path).name
-    )
+    unit = chosen.unit if unit is None else unit
+    return Record(samples, rate, speeds, unit=unit, name=Path(path).name), chosen.name
 
 
 def _turning(

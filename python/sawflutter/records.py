@@ -126,10 +126,14 @@ class Record(Entry):
         to_hz : float, optional
             As in :meth:`waterfall`.
         """
-        if np.ptp(self.rpm) > max(5.0, 0.01 * self.rpm.mean()):
+        if not self._is_steady():
             ends = f"{self.rpm.min():.0f} to {self.rpm.max():.0f} rpm"
             raise refused("rpm", ends, "constant", "use waterfall(), or a part by between()")
         return after_tap(self, self._highest(to_hz))
+
+    def _is_steady(self) -> bool:
+        """Whether the speed is constant."""
+        return bool(np.ptp(self.rpm) <= max(5.0, 0.01 * self.rpm.mean()))
 
     def _highest(self, to_hz: Number | None) -> float:
         highest = 0.4 * self.rate_hz

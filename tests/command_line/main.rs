@@ -32,6 +32,7 @@ mod membrane;
 #[cfg(target_os = "linux")]
 mod memory;
 mod program;
+mod records;
 mod refusals;
 mod response;
 mod scenes;

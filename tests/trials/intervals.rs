@@ -48,7 +48,7 @@ fn drawn_saws() -> [Drawn; 2] {
                 ("guides[1].angle_deg", 60.0, 0.0, 120.0),
             ],
             confidence: 0.95,
-            starts: 4,
+            starts: 1,
             noise_hz: 0.0,
             noise_share: 0.005,
         },

@@ -1,10 +1,10 @@
 //! Calibration: determines numbers of a scene from frequencies measured over speed.
 //!
 //! The sum of squares is minimized within bounds by the trust-region reflective method from several starts,
-//! which are spread over the bounds. The search uses a coarse basis; the best results are refined on the
-//! basis that the scene's tolerance requires. Frequencies are |Im λ|/2π in space, and zero for a wave that
-//! diverges. The measured frequencies of a row, sorted, are compared with the lowest computed ones, as in the
-//! calibration of the paper's saw with its Table 5.
+//! which are spread over the bounds, and from the best result with two guides exchanged. The search uses a
+//! coarse basis; the best results are refined on the basis that the scene's tolerance requires. Frequencies are
+//! |Im λ|/2π in space, and zero for a wave that diverges. The measured frequencies of a row, sorted, are
+//! compared with the lowest computed ones, as in the calibration of the paper's saw with its Table 5.
 //!
 //! ```
 //! use sawflutter::analyses::fit::{Measurement, Options, fit};
@@ -26,6 +26,7 @@ pub(crate) mod chart;
 mod columns;
 mod comparison;
 mod error;
+mod exchange;
 mod labview;
 mod least_squares;
 mod matching;

@@ -9,7 +9,7 @@ use crate::model::scene::RefusedValue;
 pub struct Options {
     /// Probability that an interval contains the true value.
     pub confidence: f64,
-    /// Number of starts: the original values, and others spread over the bounds.
+    /// Number of starts: the original values, and others spread over the bounds. Exchanged guides are not counted.
     pub starts: usize,
     /// Speed in rpm up to which rows are fitted.
     pub to_rpm: f64,

@@ -4,6 +4,7 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 
 use rayon::prelude::*;
 
+use super::exchange::exchanged;
 use super::least_squares::{Found, minimum};
 use super::model::Model;
 use super::{Options, Start};
@@ -25,7 +26,7 @@ pub struct Searched {
     pub candidates: Vec<Found>,
 }
 
-/// Minimizes from every start.
+/// Minimizes from every start, then from the best result with the numbers of two guides exchanged.
 ///
 /// # Errors
 /// [`SpectrumError`] when an eigenproblem fails.
@@ -38,16 +39,22 @@ pub fn search(
     let count = options.starts.max(1);
     let own: Vec<f64> = freed.iter().map(|f| f.share_of(model.scene)).collect();
     let others = (0..count - 1).map(|index| spread(freed.len(), SEED, index));
-    let from: Vec<Vec<f64>> = std::iter::once(own).chain(others).collect();
+    let mut from: Vec<Vec<f64>> = std::iter::once(own).chain(others).collect();
     let done = AtomicUsize::new(0);
-    let found: Vec<Option<Found>> = from
-        .par_iter()
-        .map(|start| {
+    let reach = |starts: &[Vec<f64>], of: usize| -> Result<Vec<Option<Found>>, SpectrumError> {
+        let each = starts.par_iter().map(|start| {
             let found = minimum(model, start);
-            progress(done.fetch_add(1, Ordering::Relaxed) + 1, count);
+            progress(done.fetch_add(1, Ordering::Relaxed) + 1, of);
             found
-        })
-        .collect::<Result<_, _>>()?;
+        });
+        each.collect()
+    };
+    let mut found = reach(&from, count)?;
+    let lowest = found.iter().flatten();
+    let best = lowest.min_by(|x, y| x.rms_hz.total_cmp(&y.rms_hz));
+    let exchanged = best.map_or_else(Vec::new, |best| exchanged(freed, &best.shares));
+    found.extend(reach(&exchanged, count + exchanged.len())?);
+    from.extend(exchanged);
     let values = |shares: &[f64]| -> Vec<f64> {
         let pairs = freed.iter().zip(shares);
         pairs.map(|(freed, share)| freed.value(*share)).collect()

@@ -18,11 +18,14 @@ mod fit;
 mod gap;
 mod keys;
 mod map;
+mod margin;
 mod output;
 mod page;
 mod pictures;
 mod place;
 mod progress;
+mod python;
+mod records;
 mod report;
 mod response;
 mod runup;
@@ -87,6 +90,12 @@ enum Command {
     /// Fit guides, density or other numbers to measured frequencies; fit.json, a scene, figures
     #[command(after_help = fit::EXAMPLES)]
     Fit(fit::Arguments),
+    /// Read records of a measured saw, with the Python package: peaks, rows for fit, figures
+    #[command(after_help = records::EXAMPLES)]
+    Records(records::Arguments),
+    /// How fast may a measured saw turn? From peaks over speed, with the Python package
+    #[command(after_help = margin::EXAMPLES)]
+    Margin(margin::Arguments),
     /// Put the guides where flutter comes latest; place.json, a scene, a map
     #[command(after_help = place::EXAMPLES)]
     Place(place::Arguments),
@@ -187,6 +196,8 @@ fn command(command: Option<Command>) -> anyhow::Result<bool> {
         #[cfg(feature = "explore")]
         Some(Command::Explore(arguments)) => explore::run(&arguments),
         Some(Command::Fit(arguments)) => fit::run(&arguments),
+        Some(Command::Records(arguments)) => records::run(&arguments),
+        Some(Command::Margin(arguments)) => margin::run(&arguments),
         Some(Command::Map(arguments)) => map::run(&arguments),
         Some(Command::Compare(arguments)) => compare::run(&arguments),
         Some(Command::Tradeoff(arguments)) => tradeoff::run(&arguments),
