@@ -189,7 +189,7 @@ fn svgs(report: &impl CommandReport) -> anyhow::Result<Vec<Figure>> {
         .collect()
 }
 
-/// Computes the report of `sawflutter check --operating-rpm 1250 --min-critical-rpm 1500 --min-flutter-rpm 2500`.
+/// Computes the report of `sawflutter check --rpm 1250 --min-critical 1500 --min-flutter 2500`.
 fn check(scene: &Scene) -> anyhow::Result<CheckReport> {
     let limits = Limits {
         min_critical_rad_per_s: Some(rad_per_s(1500.0)),
@@ -199,7 +199,7 @@ fn check(scene: &Scene) -> anyhow::Result<CheckReport> {
     Ok(check::check(scene, &limits)?)
 }
 
-/// Computes the report of `sawflutter fit --to-rpm 1250` with radius and stiffness of the guide free.
+/// Computes the report of `sawflutter fit --to 1250` with radius and stiffness of the guide free.
 fn fit(scene: &Scene) -> anyhow::Result<FitReport> {
     let own = scene.file().measured.as_ref().context("it is measured")?;
     let measurement = Measurement::of_scene(own);

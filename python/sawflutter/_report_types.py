@@ -14,7 +14,7 @@ from ._scene_types import SceneDict, StudyDict
 
 InstabilityKind: TypeAlias = Literal["divergence", "flutter"]
 
-StabilityState: TypeAlias = Literal["stable", "divergence", "flutter", "outside_sweep"]
+StabilityState: TypeAlias = Literal["stable", "divergence", "flutter", "too_close", "outside_sweep"]
 
 Direction: TypeAlias = Literal["forward", "backward", "reflected", "standing"]
 
@@ -2723,6 +2723,25 @@ class ReportGapReport(Entry):
 
 
 @dataclass(frozen=True, eq=False, repr=False, kw_only=True)
+class LoadedPad(Entry):
+    """A linear pad under the constant side force of the scene, at the rim at the cut.
+
+    Attributes
+    ----------
+    guide : Index of the guide.
+    rpm : Speed of the saw.
+    side_force_n : The side force.
+    force_n : Force of the blade on the pad: positive if the pad is pressed in the direction of
+        the side force.
+    """
+
+    guide: int
+    rpm: float
+    side_force_n: float
+    force_n: float
+
+
+@dataclass(frozen=True, eq=False, repr=False, kw_only=True)
 class DesignReport(Entry):
     """Report of a saw for a decision (design.json).
 
@@ -2745,6 +2764,8 @@ class DesignReport(Entry):
     changes : The changes of one number that raise it most, the best first.
     gap : Guides with a gap; null if no guide is one-sided.
     warnings : Remarks on the validity of the result.
+    pads : Linear pads under the side force at the cut at the operating speed; empty unless the
+        saw is stable there.
     """
 
     sawflutter: str
@@ -2761,6 +2782,7 @@ class DesignReport(Entry):
     changes: tuple[Change, ...]
     gap: ReportGapReport | None
     warnings: tuple[str, ...]
+    pads: tuple[LoadedPad, ...] = field(default=())
 
 
 @dataclass(frozen=True, eq=False, repr=False, kw_only=True)

@@ -572,6 +572,7 @@ class Scene(Drawn, Mapping[str, Value]):
         self,
         *,
         force_n: Number | None = None,
+        gap_m: Number | None = None,
         rpm: Number | None = None,
         max_deviation_m: Number | None = None,
         oscillating_force_n: Number | None = None,
@@ -588,6 +589,8 @@ class Scene(Drawn, Mapping[str, Value]):
         ----------
         force_n : float, optional
             Constant side force, in place of side_force.force_n of the scene; 1 N in a scene without one.
+        gap_m : float, optional
+            Gap of every guide, one-sided, in place of the contact of the guides of the scene.
         rpm : float, optional
             Speed of the map over gap and force; by default the operating speed, or half of the first
             critical speed.
@@ -606,28 +609,44 @@ class Scene(Drawn, Mapping[str, Value]):
         accuracy, tolerance, progress
             As in :meth:`run_campbell`.
         """
-        return self._asked(GapResults, accuracy, tolerance, progress, force_n=force_n, rpm=rpm,
+        return self._asked(GapResults, accuracy, tolerance, progress, force_n=force_n, gap_m=gap_m, rpm=rpm,
             max_deviation_m=max_deviation_m, oscillating_force_n=oscillating_force_n,
             oscillating_order=oscillating_order, friction=friction)
 
     def run_washboard(
         self,
-        rpm: Number | None = None,
         *,
+        rpm: Number | None = None,
+        stiffness_n_per_m: Number | None = None,
+        overlap: Number | None = None,
+        power_w: Number | None = None,
+        depth_m: Number | None = None,
         accuracy: Accuracy | None = None,
         tolerance: Number | None = None,
         progress: Progress = None,
     ) -> WashboardResults:
         """Determines whether washboarding occurs under the cutting force of cut.washboarding in the scene.
+        If the scene has none but the call one of its numbers, typical numbers are assumed for the others,
+        and a ModelWarning names them.
 
         Parameters
         ----------
         rpm : float, optional
             Speed of the cut; by default the operating speed of the scene.
+        stiffness_n_per_m : float, optional
+            Lateral cutting stiffness, in place of cut.washboarding.stiffness_n_per_m of the scene.
+        overlap : float, optional
+            Share of a tooth's cut on the surface left by the preceding one, in place of
+            cut.washboarding.overlap of the scene.
+        power_w : float, optional
+            Power of the cut.
+        depth_m : float, optional
+            Depth of cut.
         accuracy, tolerance, progress
             As in :meth:`run_campbell`.
         """
-        return self._asked(WashboardResults, accuracy, tolerance, progress, rpm=rpm)
+        return self._asked(WashboardResults, accuracy, tolerance, progress, rpm=rpm,
+            stiffness_n_per_m=stiffness_n_per_m, overlap=overlap, power_w=power_w, depth_m=depth_m)
 
     def fit(
         self,

@@ -144,11 +144,13 @@ fn completed(
             "to_rpm, duration_s",
             "run_up(to_rpm=3000)",
         ),
+        "washboard" if !settings.is_empty() => (AssumedBlock::Washboarding, "", ""),
         _ => return Ok((scene.file().set(settings)?, None)),
     };
     let has_block = match block {
         AssumedBlock::Cut => scene.cut().is_some(),
         AssumedBlock::RunUp => scene.runup().is_some(),
+        AssumedBlock::Washboarding => scene.needed_washboarding().is_ok(),
     };
     let key = block.key();
     if settings.is_empty() {

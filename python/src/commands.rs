@@ -249,11 +249,14 @@ fn response(options: &Options<'_>) -> PyResult<Work> {
 
 /// `gap.json`, at a speed.
 fn gap(options: &Options<'_>) -> PyResult<Work> {
+    let gap_m = options.number("gap_m")?;
     let options = GapOptions {
         rpm: options.number("rpm")?,
         max_deviation_mm: options.millimetres("max_deviation_m")?,
     };
     Ok(Box::new(move |scene, _| {
+        let tried = gap_m.map(|gap_m| scene.with_gap(gap_m)).transpose()?;
+        let scene = tried.as_ref().map_or(scene, |tried| &tried.scene);
         options.checked(scene)?;
         json(&gap::gap(scene, &options)?)
     }))

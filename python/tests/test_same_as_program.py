@@ -60,7 +60,7 @@ def test_the_reports_of_cut_and_run_up(programs: list[str], scenes: Path, tmp_pa
 def test_the_report_of_deflect(programs: list[str], scenes: Path, tmp_path: Path) -> None:
     path = scenes / "paper.json"
     found = sf.Scene.load(path).run_deflect(force_n=2.0, to_rpm=1600, accuracy="draft")
-    same_report(programs, found, tmp_path, path, "--force-n", 2, "--to-rpm", 1600)
+    same_report(programs, found, tmp_path, path, "--force", 2, "--to", 1600)
     table = found.to_dataframe()
     assert len(table) > 20 and set(table["direction"]) == {"up", "down"}
 
@@ -73,7 +73,7 @@ def test_the_report_of_a_response(programs: list[str], scenes: Path, tmp_path: P
     path = tmp_path / "saw.json"
     saw.save(path)
     found = saw.run_response(rpm=900, to_hz=50, accuracy="draft")
-    same_report(programs, found, tmp_path, path, "--rpm", 900, "--to-hz", 50)
+    same_report(programs, found, tmp_path, path, "--rpm", 900, "--to-frequency", 50)
     table = found.to_dataframe()
     assert len(table) == len(found.rpm)
     assert list(table) == ["rpm", *(line.name for line in found.lines), "board_deviation_m"]
@@ -85,7 +85,7 @@ def test_the_report_of_gap(programs: list[str], scenes: Path, tmp_path: Path) ->
     path = tmp_path / "saw.json"
     saw.save(path)
     found = saw.run_gap(force_n=2.0, rpm=1000, max_deviation_m=3e-4, accuracy="draft")
-    options = ["--force-n", 2, "--rpm", 1000, "--max-deviation-mm", 0.3]
+    options = ["--force", 2, "--rpm", 1000, "--max-deviation", "0.3mm"]
     same_report(programs, found, tmp_path, path, *options)
     assert found.oscillation is None and found.friction is None
     rows = found.deviation.deflection_m
@@ -105,7 +105,7 @@ def test_the_report_for_a_decision(programs: list[str], scenes: Path, tmp_path: 
 def test_the_report_of_washboarding(
     programs: list[str], scenes: Path, resaw: sf.Scene, tmp_path: Path
 ) -> None:
-    found = resaw.run_washboard(2300.0)
+    found = resaw.run_washboard(rpm=2300.0)
     same_report(programs, found, tmp_path, scenes / "gallery/washboarding.json", "--rpm", 2300)
 
 
@@ -114,8 +114,8 @@ def test_the_report_of_a_check(programs: list[str], scenes: Path, tmp_path: Path
     check = saw.check(operating_rpm=1400, min_flutter_rpm=2000, accuracy="draft")
     for program in programs:
         done = ran(
-            program, "check", scenes / "paper.json", "--operating-rpm", 1400,
-            "--min-flutter-rpm", 2000, "--accuracy", "draft", "--json",
+            program, "check", scenes / "paper.json", "--rpm", 1400,
+            "--min-flutter", 2000, "--accuracy", "draft", "--json",
         )  # fmt: skip
         assert done.returncode == (0 if check.passed else 1)
         assert done.stdout.decode().strip() == check.to_json()
@@ -141,7 +141,7 @@ def test_the_page(programs: list[str], scenes: Path, tmp_path: Path) -> None:
     checked = sf.Scene.load(scenes / "paper.json").check(operating_rpm=1400, accuracy="draft")
     checked.save(tmp_path / "own.html")
     for program in programs:
-        options = ["--operating-rpm", 1400, "--accuracy", "draft", "--report", page]
+        options = ["--rpm", 1400, "--accuracy", "draft", "--report", page]
         assert ran(program, "check", scenes / "paper.json", *options).returncode == 1
         assert page.read_bytes() == (tmp_path / "own.html").read_bytes()
 
@@ -170,7 +170,7 @@ def test_the_shapes(programs: list[str], scenes: Path, tmp_path: Path) -> None:
     (tmp_path / "own").mkdir()
     found.save(tmp_path / "own" / "modes.pvd")
     for program in programs:
-        options = ["--accuracy", "draft", "--at-rpm", 1000, "--vtk", "--out", tmp_path]
+        options = ["--accuracy", "draft", "--rpm", 1000, "--vtk", "--out", tmp_path]
         assert ran(program, "analyze", scenes / "paper.json", *options).returncode == 0
         assert (tmp_path / "modes.svg").read_bytes() == found.figure("modes.svg")
         for path in (tmp_path / "own").iterdir():

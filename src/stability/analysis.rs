@@ -358,8 +358,10 @@ impl Analysis {
     }
 
     pub(crate) fn evidence<'a>(&'a self, critical_rad_per_s: &'a [f64]) -> Evidence<'a> {
+        let estimates = self.estimates.iter().flat_map(|found| &found.bands);
         Evidence {
             bands: &self.chart.instabilities,
+            edge_errors: estimates.map(|error| error.speed).collect(),
             critical_rad_per_s,
             threshold_per_s: self.scene.flutter_threshold_per_s(),
             range_rad_per_s: self.range_rad_per_s,

@@ -83,6 +83,7 @@ pub use sensitivity::{Sensitivity, SensitivityError};
 pub(crate) use undamped::Depth;
 #[doc(hidden)]
 pub use undamped::undamped_bands;
-pub(crate) use undecided::UndecidedEdge;
+pub use undecided::Edge;
+pub(crate) use undecided::{edges, undecided};
 pub(crate) use verdict::{CRITICAL_MARGIN, critical_at, flutter_onsets};
 pub use verdict::{Evidence, StabilityState, Verdict};

@@ -1,47 +1,44 @@
 //! Speeds at which the estimated error of an edge leaves open whether a saw is stable.
 
-use super::analysis::Analysis;
-
-/// An edge of a band that is so close to a speed that its error decides.
+/// An edge of a band that counts, in any unit of speed.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct UndecidedEdge {
-    /// Speed at which a band that counts begins or ends, in rad/s.
-    pub edge_rad_per_s: f64,
-    /// Its estimated error, in rad/s.
-    pub error_rad_per_s: f64,
+pub struct Edge {
+    /// Speed at which the band begins or ends.
+    pub speed: f64,
+    /// Its estimated error.
+    pub error: f64,
 }
 
-impl Analysis {
-    /// The nearest edge of a band that counts, if its estimated error exceeds its distance from a speed. The ends of the sweep are no
-    /// edges, and neither are the speeds at which the growth in a damped band reaches the threshold: they have no estimated error.
-    pub(crate) fn undecided(&self, speed_rad_per_s: f64) -> Option<UndecidedEdge> {
-        let estimates = self.estimates.as_ref()?;
-        let threshold = self.scene.flutter_threshold_per_s();
-        let bands = self.chart.instabilities.iter().zip(&estimates.bands);
-        let edges = bands.flat_map(|(band, error)| {
-            let counted = band.counted(threshold).into_iter();
-            let ends = counted.flat_map(|stretch| stretch.ends());
-            let own = ends.filter(|edge| band.range().ends().contains(edge));
-            own.filter_map(|edge| {
-                Some(UndecidedEdge {
-                    edge_rad_per_s: edge,
-                    error_rad_per_s: error.speed? * edge,
-                })
-            })
-        });
-        let sweep = self.range_rad_per_s.ends();
-        let away = |found: &UndecidedEdge| (found.edge_rad_per_s - speed_rad_per_s).abs();
-        let open = edges.filter(|found| {
-            !sweep.contains(&found.edge_rad_per_s) && away(found) <= found.error_rad_per_s
-        });
-        open.min_by(|x, y| away(x).total_cmp(&away(y)))
-    }
+/// The edges of a band that counts within some stretches of it. The ends of the sweep are no edges, and neither are the speeds at which
+/// the growth in a damped band reaches the threshold: they have no estimated error.
+pub(crate) fn edges<'a>(
+    band: [f64; 2],
+    stretches: impl IntoIterator<Item = [f64; 2]> + 'a,
+    relative_error: Option<f64>,
+    sweep: [f64; 2],
+) -> impl Iterator<Item = Edge> + 'a {
+    let ends = stretches.into_iter().flatten();
+    let own = ends.filter(move |end| band.contains(end) && !sweep.contains(end));
+    own.filter_map(move |speed| {
+        Some(Edge {
+            speed,
+            error: relative_error? * speed,
+        })
+    })
+}
+
+/// The nearest of the edges whose error exceeds its distance from a speed.
+pub(crate) fn undecided(edges: impl Iterator<Item = Edge>, speed: f64) -> Option<Edge> {
+    let away = |edge: &Edge| (edge.speed - speed).abs();
+    let open = edges.filter(|edge| away(edge) <= edge.error);
+    open.min_by(|x, y| away(x).total_cmp(&away(y)))
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
     use crate::model::scene::{Accuracy, Scene};
+    use crate::stability::{Analysis, StabilityState};
 
     /// Reference: the edge on the basis of the accuracy `reference`, on whose side the saw truly is.
     #[test]
@@ -56,11 +53,35 @@ mod tests {
         };
         let (edge, analysis) = flutter(Accuracy::Draft);
         let (exact, _) = flutter(Accuracy::Reference);
-        let found = analysis.undecided(exact).unwrap();
-        assert_eq!(found.edge_rad_per_s, edge);
+        let verdict = analysis.verdict(exact);
+        assert_eq!(verdict.state, StabilityState::TooClose);
+        let found = verdict.undecided.unwrap();
+        assert_eq!(found.speed, edge);
         for away in [-2.0, 2.0] {
-            let beyond = edge + away * found.error_rad_per_s;
-            assert_eq!(analysis.undecided(beyond), None);
+            let beyond = analysis.verdict(edge + away * found.error);
+            assert_eq!(beyond.undecided, None);
+            assert_ne!(beyond.state, StabilityState::TooClose);
         }
+    }
+
+    #[test]
+    fn ends_of_the_sweep_and_edges_without_an_error_leave_nothing_open() {
+        let at =
+            |error, sweep| undecided(edges([100.0, 200.0], [[100.0, 150.0]], error, sweep), 99.5);
+        let edge = Edge {
+            speed: 100.0,
+            error: 1.0,
+        };
+        assert_eq!(at(Some(0.01), [0.0, 300.0]), Some(edge));
+        assert_eq!(at(Some(0.01), [100.0, 300.0]), None);
+        assert_eq!(at(None, [0.0, 300.0]), None);
+        // Where the growth falls below the threshold, at 150, is no edge.
+        assert_eq!(
+            undecided(
+                edges([100.0, 200.0], [[100.0, 150.0]], Some(0.01), [0.0, 300.0]),
+                150.0
+            ),
+            None
+        );
     }
 }

@@ -17,6 +17,7 @@ use super::band::{CurvePoint, Instability};
 use super::instability_kind::InstabilityKind;
 use super::interpolation::Cubic;
 use super::root::share_of_zero;
+use super::undecided::{Edge, edges, undecided};
 use crate::model::scene::SpeedRange;
 use crate::modes::smallest;
 
@@ -36,6 +37,8 @@ pub enum StabilityState {
     Divergence,
     /// A vibration grows exponentially: Re λ > 0 with a frequency.
     Flutter,
+    /// The estimated error of the edge of a band exceeds its distance from the speed, so it is open on which side the speed is.
+    TooClose,
     /// The speed was not analysed.
     OutsideSweep,
 }
@@ -64,15 +67,19 @@ pub struct Verdict {
     pub band: Option<usize>,
     /// Interval around the speed in which that band counts, in rad/s.
     pub stretch: Option<SpeedRange>,
+    /// The edge whose error leaves the state open, in rad/s.
+    pub undecided: Option<Edge>,
     /// Index of the critical speed within 5 % of the speed; of several, the nearest.
     pub critical: Option<usize>,
 }
 
 /// Results from which a verdict follows.
-#[derive(Debug, Clone, Copy)]
+#[derive(Debug, Clone)]
 pub struct Evidence<'a> {
     /// Every band within the range.
     pub bands: &'a [Instability],
+    /// Estimated relative errors of the edges of each band; empty if they are not known.
+    pub edge_errors: Vec<Option<f64>>,
     /// Critical speeds, ascending, in rad/s, including those next to the range.
     pub critical_rad_per_s: &'a [f64],
     /// Smallest growth rate of flutter that counts, in 1/s; divergence always counts.
@@ -104,7 +111,9 @@ impl Evidence<'_> {
             let (x, y) = (rank(x), rank(y));
             x.0.cmp(&y.0).then(x.1.total_cmp(&y.1))
         });
+        let undecided = undecided(self.edges(), speed_rad_per_s);
         let state = match worst {
+            _ if undecided.is_some() => StabilityState::TooClose,
             Some((_, band, _)) => StabilityState::within([band.kind]),
             None if around(&self.range_rad_per_s) => StabilityState::Stable,
             None => StabilityState::OutsideSweep,
@@ -113,13 +122,25 @@ impl Evidence<'_> {
             state,
             band: worst.map(|(index, _, _)| index),
             stretch: worst.map(|(_, _, stretch)| stretch),
+            undecided,
             critical: critical_at(self.critical_rad_per_s, speed_rad_per_s),
         }
     }
 
+    /// The edges of the bands that count, in rad/s.
+    fn edges(&self) -> impl Iterator<Item = Edge> {
+        let sweep = self.range_rad_per_s.ends();
+        let known = self.bands.iter().zip(&self.edge_errors);
+        known.flat_map(move |(band, error)| {
+            let counted = band.counted(self.threshold_per_s).into_iter();
+            let stretches = counted.map(|stretch| stretch.ends());
+            edges(band.range().ends(), stretches, *error, sweep)
+        })
+    }
+
     /// Range of speeds around a speed without an instability that counts, in rad/s, within the sweep and at
-    /// least 5 % away from critical speeds; `None` if the saw is unstable or at a critical speed, or if the
-    /// speed is outside the sweep.
+    /// least 5 % away from critical speeds; `None` if the saw is unstable, too close to an edge or at a critical
+    /// speed, or if the speed is outside the sweep.
     pub fn window_without_instability(&self, speed_rad_per_s: f64) -> Option<SpeedRange> {
         let verdict = self.verdict(speed_rad_per_s);
         if verdict.state != StabilityState::Stable || verdict.critical.is_some() {
@@ -268,6 +289,7 @@ mod tests {
     fn evidence<'a>(bands: &'a [Instability], critical: &'a [f64]) -> Evidence<'a> {
         Evidence {
             bands,
+            edge_errors: Vec::new(),
             critical_rad_per_s: critical,
             threshold_per_s: 0.25,
             range_rad_per_s: SpeedRange::new(0.0, 300.0),

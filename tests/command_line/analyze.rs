@@ -232,11 +232,11 @@ fn a_part_of_the_sweep_can_be_drawn() {
         (output, files)
     };
     let (_, [report, whole]) = drawn(&[]);
-    let (output, [same, part]) = drawn(&["--draw-from-rpm", "100", "--draw-to-hz", "77"]);
+    let (output, [same, part]) = drawn(&["--draw-from", "100", "--draw-to-frequency", "77"]);
     assert!(output.status.success(), "{}", text(&output.stderr));
     assert!(same == report && part != whole);
     assert!(text(&part).contains("shown: 100 to "));
-    let (refused, _) = drawn(&["--draw-from-rpm", "1e7"]);
+    let (refused, _) = drawn(&["--draw-from", "1e7"]);
     assert_eq!(refused.status.code(), Some(2));
     assert!(text(&refused.stderr).contains("do not name a part of the sweep"));
 }

@@ -91,10 +91,7 @@ fn shapes_are_written_where_they_are_asked_for() {
             .filter(|name| name.starts_with("modes"))
             .collect::<Vec<_>>()
     };
-    let both = report(
-        &[&plain[..], &["--vtk", "--at-rpm", "500"]].concat(),
-        &folder,
-    );
+    let both = report(&[&plain[..], &["--vtk", "--rpm", "500"]].concat(), &folder);
     assert!(
         both.shapes
             .iter()

@@ -156,38 +156,26 @@ fn a_scene_without_the_forces_is_refused() {
 #[test]
 fn a_check_passes_fails_or_is_refused() {
     let cases: [(&[&str], i32, &str); 8] = [
-        (&["--operating-rpm", "1200"], 0, "PASSED at 1200 rpm"),
+        (&["--rpm", "1200"], 0, "PASSED at 1200 rpm"),
+        (&["--rpm", "1400"], 1, "FAIL 85 % rule: 1400 rpm is 91"),
         (
-            &["--operating-rpm", "1400"],
-            1,
-            "FAIL 85 % rule: 1400 rpm is 91",
-        ),
-        (
-            &["--operating-rpm", "1400"],
+            &["--rpm", "1400"],
             1,
             "FAILED at 1400 rpm: 1 of 3 limits is not kept",
         ),
+        (&["--rpm", "1200", "--min-critical", "1600"], 1, "FAIL"),
         (
-            &["--operating-rpm", "1200", "--min-critical-rpm", "1600"],
-            1,
-            "FAIL",
-        ),
-        (
-            &["--operating-rpm", "1200", "--min-flutter-rpm", "2300"],
+            &["--rpm", "1200", "--min-flutter", "2300"],
             1,
             "FAIL flutter speed of at least 2300 rpm: 22",
         ),
         // The flutter speed is that of `analyze`, also above a small limit.
         (
-            &["--operating-rpm", "1200", "--min-flutter-rpm", "1400"],
+            &["--rpm", "1200", "--min-flutter", "1400"],
             0,
             "PASS flutter speed of at least 1400 rpm: 2256 rpm",
         ),
-        (
-            &["--operating-rpm", "-3"],
-            2,
-            "--operating-rpm must be … (you gave -3)",
-        ),
+        (&["--rpm", "-3"], 2, "--rpm must be … (you gave -3)"),
         (&["--margin", "2"], 2, "--margin must be … (you gave 2)"),
     ];
     for (arguments, code, expected) in cases {

@@ -14,7 +14,7 @@ use super::program::{assert_in_80_columns, assert_refused, names_in, out, run, t
 #[test]
 fn the_built_in_saw_has_deflected_equilibria_past_its_first_critical_speed() {
     let folder = TempDir::new().unwrap();
-    let options = ["--force-n", "2", "--to-rpm", "1700", "--accuracy", "draft"];
+    let options = ["--force", "2", "--to", "1700", "--accuracy", "draft"];
     let output = run(&[&["deflect"], &options[..]].concat(), &folder);
     assert!(output.status.success(), "{}", text(&output.stderr));
     let expected = ["deflect.json", "deflect.png", "deflect.svg"];
@@ -44,16 +44,16 @@ fn the_built_in_saw_has_deflected_equilibria_past_its_first_critical_speed() {
 fn a_force_or_a_saw_without_an_answer_is_refused() {
     let folder = TempDir::new().unwrap();
     for (options, said) in [
-        (&["--force-n", "1e9"][..], "--force-n"),
+        (&["--force", "1e9"][..], "--force"),
         (
-            &["--force-n", "1e5", "--accuracy", "draft"],
+            &["--force", "1e5", "--accuracy", "draft"],
             "side_force.force_n must be … (you gave 100000)",
         ),
         (
             &["--set", "side_force.angle_deg=inf"],
             "side_force.angle_deg",
         ),
-        (&["--to-rpm", "-5"], "--to-rpm"),
+        (&["--to", "-5"], "--to"),
     ] {
         assert_refused(&[&["deflect"], options].concat(), said, &folder);
     }
@@ -80,7 +80,7 @@ fn a_pad_that_lifts_off_is_reported() {
     let path = folder.path().join("saw.json");
     std::fs::write(&path, json).unwrap();
     let path = path.to_str().unwrap();
-    let asked = ["deflect", path, "--to-rpm", "600", "--force-n"];
+    let asked = ["deflect", path, "--to", "600", "--force"];
     let output = run(&[&asked[..], &["3"]].concat(), &folder);
     assert!(output.status.success(), "{}", text(&output.stderr));
     let summary = text(&output.stdout);
@@ -124,12 +124,12 @@ fn a_limit_of_the_amplitude_of_flutter_applies_to_every_band() {
     let operating = format!("{}", 0.5 * (first.from_rpm + first.to_rpm));
     let most_mm = 1e3 * std::f64::consts::SQRT_2 * amplitude(first).unwrap();
     for (share, passed) in [(0.99, false), (1.01, true)] {
-        let limit = format!("{}", share * most_mm);
+        let limit = format!("{}mm", share * most_mm);
         let asked = [
             "check",
-            "--operating-rpm",
+            "--rpm",
             &operating,
-            "--max-amplitude-mm",
+            "--max-amplitude",
             &limit,
             "--json",
         ];
@@ -143,6 +143,6 @@ fn a_limit_of_the_amplitude_of_flutter_applies_to_every_band() {
         assert_eq!(criterion.passed, passed, "{criterion:?}");
         assert_eq!(output.status.code(), Some(1));
     }
-    let negative = ["check", "--max-amplitude-mm", "-1"];
-    assert_refused(&negative, "--max-amplitude-mm", &folder);
+    let negative = ["check", "--max-amplitude", "-1mm"];
+    assert_refused(&negative, "--max-amplitude", &folder);
 }

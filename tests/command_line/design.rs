@@ -34,9 +34,9 @@ fn a_check_draws_its_limits_where_it_is_asked_to() {
         "check",
         "--accuracy",
         "draft",
-        "--operating-rpm",
+        "--rpm",
         "1250",
-        "--min-flutter-rpm",
+        "--min-flutter",
         "2800",
         "--json",
     ];
@@ -115,11 +115,7 @@ fn a_table_that_cannot_be_fitted_is_refused_and_nothing_is_written() {
     let cases: [(&str, &[&str], &str); 9] = [
         ("rpm,f\n0,x\n", &[], "line 2"),
         ("rpm,f\n", &[], "no frequency in measured.csv"),
-        (
-            TABLE,
-            &["--to-rpm", "-1"],
-            "--to-rpm must be … (you gave -1)",
-        ),
+        (TABLE, &["--to", "-1"], "--to must be … (you gave -1)"),
         (
             TABLE,
             &["--confidence", "1"],
@@ -192,18 +188,18 @@ fn a_place_is_found_and_written() {
 #[test]
 fn the_exit_code_says_whether_the_limit_is_kept_or_the_input_refused() {
     let cases: [(&[&str], i32, &str); 5] = [
-        (&["--min-critical-rpm", "9000"], 1, "misses it by"),
+        (&["--min-critical", "9000"], 1, "misses it by"),
         (
-            &["--min-critical-rpm", "-9"],
+            &["--min-critical", "-9"],
             2,
-            "--min-critical-rpm must be … (you gave -9)",
+            "--min-critical must be … (you gave -9)",
         ),
         (&["--map", "1"], 2, "--map must be … (you gave 1)"),
         (&["--samples", "0"], 2, "--samples must be … (you gave 0)"),
         (
-            &["--radius-tolerance-m", "-0.002"],
+            &["--radius-tolerance", "-0.002"],
             2,
-            "--radius-tolerance-m must be from 0 to 0.1 … (you gave -0.002)",
+            "--radius-tolerance must be from 0 to 0.1 … (you gave -0.002)",
         ),
     ];
     for (more, code, expected) in cases {

@@ -29,11 +29,11 @@ fn text_files_and_json_agree() {
     let folder = TempDir::new().unwrap();
     let path = saw(&folder);
     let options = [
-        "--force-n",
+        "--force",
         "2",
-        "--max-deviation-mm",
-        "0.3",
-        "--oscillating-force-n",
+        "--max-deviation",
+        "0.3mm",
+        "--oscillating-force",
         "0.5",
         "--friction",
         "0.2",
@@ -105,23 +105,20 @@ fn a_saw_without_a_gap_and_invalid_numbers_are_refused() {
     for (words, said) in [
         (&["gap"][..], "guides[].contact"),
         (
-            &["gap", &path, "--force-n", "0"],
+            &["gap", &path, "--force", "0"],
             "side_force.force_n must be … (you gave 0)",
         ),
         (&["gap", &path, "--rpm", "-3"], "--rpm"),
+        (&["gap", &path, "--max-deviation", "0mm"], "--max-deviation"),
         (
-            &["gap", &path, "--max-deviation-mm", "0"],
-            "--max-deviation-mm",
-        ),
-        (
-            &["gap", &path, "--oscillating-force-n", "-1"],
-            "--oscillating-force-n",
+            &["gap", &path, "--oscillating-force", "-1"],
+            "--oscillating-force",
         ),
         (
             &[
                 "gap",
                 &path,
-                "--oscillating-force-n",
+                "--oscillating-force",
                 "1",
                 "--oscillating-order",
                 "0",

@@ -305,7 +305,7 @@ fn control_characters_are_not_sent_to_the_terminal() {
         &["analyze", scene][..],
         &["analyze", scene, "--json"],
         &["export", "--matrices", scene],
-        &["check", scene, "--operating-rpm", "1000"],
+        &["check", scene, "--rpm", "1000"],
         &["no\u{1b}[31msuch.json"],
         &["\u{1b}[31m"],
         &["fit", scene, "no\u{9b}such.csv"],
@@ -405,7 +405,7 @@ fn a_check_with_a_number_of_another_unit_fails() {
     let scene_path = write_scene(&folder, &file);
     let scene = scene_path.to_str().unwrap();
     let check = |rpm: &str, more: &[&str]| {
-        let arguments = [&["check", scene, "--operating-rpm", rpm], more].concat();
+        let arguments = [&["check", scene, "--rpm", rpm], more].concat();
         let output = run(&arguments, &folder);
         (
             output.status.code(),

@@ -91,6 +91,6 @@ fn causes_are_set_by_their_keys_and_refused_by_them() {
     // Beyond the sweep the saw was not analysed.
     let fast = ["response", &path, "--rpm", "9000"];
     assert_refused(&fast, "--rpm must be … (you gave 9000)", &folder);
-    let still = ["response", &path, "--to-hz", "0"];
-    assert_refused(&still, "--to-hz must be … (you gave 0)", &folder);
+    let still = ["response", &path, "--to-frequency", "0"];
+    assert_refused(&still, "--to-frequency must be … (you gave 0)", &folder);
 }

@@ -19,7 +19,7 @@ static DAMPED_PAD: LazyLock<(String, Report)> = LazyLock::new(|| {
     file.guides[0].damping_n_s_per_m = 50.0;
     file.accuracy = Accuracy::Draft;
     let scene = write_scene(&folder, &file);
-    let arguments = ["analyze", scene.to_str().unwrap(), "--at-rpm", "1800"];
+    let arguments = ["analyze", scene.to_str().unwrap(), "--rpm", "1800"];
     let output = run(&arguments, &folder);
     assert_eq!(output.status.code(), Some(0), "{}", text(&output.stderr));
     let report = written(&folder, "report.json");
@@ -91,8 +91,8 @@ fn the_modes_of_one_speed_are_listed_when_asked_for() {
         assert!((mode.damping_ratio.unwrap() + mode.growth_per_s / size).abs() < 1e-12);
     }
     let folder = TempDir::new().unwrap();
-    let beyond = ["analyze", "--accuracy", "draft", "--at-rpm", "9000"];
-    let words = "--at-rpm must be from 0 to 3000 … (you gave 9000)";
+    let beyond = ["analyze", "--accuracy", "draft", "--rpm", "9000"];
+    let words = "--rpm must be from 0 to 3000 … (you gave 9000)";
     assert_refused(&beyond, words, &folder);
 }
 
@@ -106,7 +106,7 @@ fn text_of(bytes: &[u8]) -> String {
 fn rim_stiffness_past_the_first_critical_speed_is_left_out() {
     let check = |rpm: &str, json: bool| {
         let mut command = sawflutter();
-        command.args(["check", "--accuracy", "draft", "--operating-rpm", rpm]);
+        command.args(["check", "--accuracy", "draft", "--rpm", rpm]);
         if json {
             command.arg("--json");
         }
@@ -208,7 +208,7 @@ fn an_unrestrained_blade_does_not_pass() {
     file.accuracy = Accuracy::Draft;
     let scene_path = write_scene(&folder, &file);
     let scene = scene_path.to_str().unwrap();
-    let output = run(&["check", scene, "--operating-rpm", "600"], &folder);
+    let output = run(&["check", scene, "--rpm", "600"], &folder);
     let shown = text(&output.stdout);
     assert_eq!(output.status.code(), Some(1), "{shown}");
     assert!(
@@ -219,10 +219,7 @@ fn an_unrestrained_blade_does_not_pass() {
         shown.contains("nothing holds the blade's rigid motions"),
         "{shown}"
     );
-    let guided = run(
-        &["check", "--operating-rpm", "600", "--accuracy", "draft"],
-        &folder,
-    );
+    let guided = run(&["check", "--rpm", "600", "--accuracy", "draft"], &folder);
     assert_eq!(guided.status.code(), Some(0), "{}", text(&guided.stdout));
 }
 

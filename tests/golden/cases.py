@@ -8,7 +8,7 @@ SHORT = {"sweep.to_rpm": 1700, "operating_rpm": 1000, "measured": None}
 ONE_SIDED = {**SHORT, "sweep.to_rpm": 1400, "guides.0.contact": "one_sided", "guides.0.gap_m": 4e-5}
 CAUSES = {"response": {"flatness_m": 5e-5, "runout_m": 0}, "side_force.oscillating_n": 1, "side_force.order": 42}
 BRIEF = {"runup.to_rpm": 2600, "runup.duration_s": 6}
-PADS = ["--force-n", "2", "--max-deviation-mm", "0.3", "--oscillating-force-n", "0.5", "--friction", "0.2"]
+PADS = ["--force", "2", "--max-deviation", "0.3mm", "--oscillating-force", "0.5", "--friction", "0.2"]
 QUICK_PLACE = ["--free", "guides[0].radius_m=0.195..0.205", "--samples", "3", "--refine", "4"]
 THICKNESS = ["--x", "blade.thickness_m=2.6mm..3mm", "--points", "3"]
 STUDY = {
@@ -29,38 +29,38 @@ CHARTED = ["scenes/*.json", "scenes/gallery/*.json"]
 # name: (scene, changes, arguments).
 CASES = {
     # The chart, with everything that is computed on request.
-    "analyze-paper": ("paper", {}, ["analyze", "saw", "--sensitivity", "--amplitude", "--at-rpm", "1800"]),
+    "analyze-paper": ("paper", {}, ["analyze", "saw", "--sensitivity", "--amplitude", "--rpm", "1800"]),
     "analyze-shapes": ("paper", {"sweep.to_rpm": 2000}, ["analyze", "saw", "--shapes", "--vtk"]),
     "analyze-free": ("free-blade", {"sweep.to_rpm": 1500}, ["analyze", "saw"]),
-    "analyze-damped": ("gallery/damped-pad", {"sweep.to_rpm": 2600}, ["analyze", "saw", "--at-rpm", "1800"]),
+    "analyze-damped": ("gallery/damped-pad", {"sweep.to_rpm": 2600}, ["analyze", "saw", "--rpm", "1800"]),
     "analyze-heated": ("gallery/heated-rim", {}, ["analyze", "saw"]),
     "analyze-in-cut": ("gallery/in-cut-wood", {}, ["analyze", "saw"]),
     "analyze-excited": ("gallery/excitation-lines", {}, ["analyze", "saw"]),
     "analyze-json": ("free-blade", {"sweep.to_rpm": 1500}, ["analyze", "saw", "--json"]),
     # The commands with a report.
-    "check-passed": ("paper", {}, ["check", "saw", "--operating-rpm", "1250", "--max-amplitude-mm", "0.5"]),
-    "check-failed": ("paper", {}, ["check", "saw", "--operating-rpm", "1800", "--min-flutter-rpm", "2800"]),
-    "check-free": ("paper", {"guides": []}, ["check", "saw", "--operating-rpm", "600"]),
+    "check-passed": ("paper", {}, ["check", "saw", "--rpm", "1250", "--max-amplitude", "0.5mm"]),
+    "check-failed": ("paper", {}, ["check", "saw", "--rpm", "1800", "--min-flutter", "2800"]),
+    "check-free": ("paper", {"guides": []}, ["check", "saw", "--rpm", "600"]),
     "compare-two": ("paper", {}, ["compare", "saw", "scenes/two-pads.json"]),
     "compare-variants": ("free-blade", {"sweep.to_rpm": 1500}, ["compare", "saw", "--variant", "blade.thickness_m=2.6mm"]),
     "cut-paper": ("paper", {"cut.board_length_m": 0.5}, ["cut", "saw"]),
     "cut-spline": ("paper-spline", {"cut.board_length_m": 0.2}, ["cut", "saw"]),
     "cut-stretching": ("paper", {"cut.board_length_m": 0.2, "cut.stretching": True}, ["cut", "saw", "--rpm", "2800"]),
     "cut-wood": ("gallery/in-cut-wood", {"cut.board_length_m": 0.5}, ["cut", "saw", "--rpm", "2000"]),
-    "deflect-jumps": ("paper", {}, ["deflect", "saw", "--force-n", "2", "--to-rpm", "1700"]),
-    "deflect-lifts": ("paper", ONE_SIDED, ["deflect", "saw", "--force-n", "3", "--to-rpm", "600"]),
-    "fit-paper": ("paper", {}, ["fit", "saw", "--to-rpm", "1250", "--starts", "2"]),
-    "fit-one-number": ("paper", {}, ["fit", "saw", "--to-rpm", "500", "--starts", "1", "--free", "guides[0].radius_m"]),
+    "deflect-jumps": ("paper", {}, ["deflect", "saw", "--force", "2", "--to", "1700"]),
+    "deflect-lifts": ("paper", ONE_SIDED, ["deflect", "saw", "--force", "3", "--to", "600"]),
+    "fit-paper": ("paper", {}, ["fit", "saw", "--to", "1250", "--starts", "2"]),
+    "fit-one-number": ("paper", {}, ["fit", "saw", "--to", "500", "--starts", "1", "--free", "guides[0].radius_m"]),
     "gap-all": ("paper", ONE_SIDED, ["gap", "saw", *PADS]),
     "gap-film": ("gallery/water-film", {"guides.0.contact": "one_sided"}, ["gap", "saw"]),
     "map-speed": ("paper", SHORT, ["map", "saw", *THICKNESS]),
     "map-two-numbers": ("paper", SHORT, ["map", "saw", *THICKNESS, "--y", "guides[0].radius_m=0.15..0.25"]),
     "place-fragile": ("paper", {}, ["place", "saw", *QUICK_PLACE, "--map", "2"]),
-    "place-limit": ("paper", {}, ["place", "saw", *QUICK_PLACE, "--map", "0", "--min-critical-rpm", "9000"]),
+    "place-limit": ("paper", {}, ["place", "saw", *QUICK_PLACE, "--map", "0", "--min-critical", "9000"]),
     "place-window": ("paper", {}, ["place", "saw", *QUICK_PLACE, "--map", "0", "--goal", "window"]),
     "report-paper": ("paper", SHORT, ["report", "saw", "--customer", "A. Miller", "--date", "2027-01-15"]),
     "response-causes": ("paper", {**SHORT, **CAUSES}, ["response", "saw"]),
-    "response-frequencies": ("gallery/damped-pad", {}, ["response", "saw", "--rpm", "1200", "--to-hz", "100"]),
+    "response-frequencies": ("gallery/damped-pad", {}, ["response", "saw", "--rpm", "1200", "--to-frequency", "100"]),
     "response-resonance": ("paper", {"side_force.force_n": 2}, ["response", "saw"]),
     "runup-paper": ("paper", BRIEF, ["runup", "saw"]),
     "runup-ends": ("paper", {**BRIEF, "side_force.force_n": 500}, ["runup", "saw"]),

@@ -334,7 +334,7 @@ impl OperatingPoint {
             inside_instability: verdict.band,
             at_critical_rpm: verdict.critical.map(|place| rpm(critical[place])),
             side_force_factor: None,
-            undecided_edge_rpm: None,
+            undecided_edge_rpm: verdict.undecided.map(|edge| rpm(edge.speed)),
             safe_window_rpm: window.map(|range| range.ends().map(rpm)),
             growth_per_s: None,
             frequency_hz: None,
@@ -349,9 +349,6 @@ fn operating(analysis: &Analysis, speed_rad_per_s: f64) -> OperatingPoint {
         growth_per_s: fastest.map(|lambda| lambda.re),
         frequency_hz: fastest.map(|lambda| lambda.im.abs() / TAU),
         side_force_factor: side_force_factor(analysis, speed_rad_per_s),
-        undecided_edge_rpm: analysis
-            .undecided(speed_rad_per_s)
-            .map(|found| rpm(found.edge_rad_per_s)),
         ..OperatingPoint::from_evidence(&analysis.evidence(&critical), speed_rad_per_s)
     }
 }

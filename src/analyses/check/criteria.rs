@@ -3,24 +3,25 @@
 use super::limits::Limits;
 use super::report::Criterion;
 use super::static_deflection::StaticDeflection;
+use crate::analyses::campbell::too_close;
 use crate::model::plate::Plate;
-use crate::model::scene::{Polar, Scene, rpm};
+use crate::model::scene::{Accuracy, Polar, Scene, SpeedRange, rpm};
 use crate::motion::stretched_blade::Rise;
 use crate::motion::transient::at_point;
 use crate::page::text::{shown, shown_to};
 use crate::stability::{
-    Analysis, Evidence, Instability, InstabilityKind, UndecidedEdge, flutter_onsets,
+    Analysis, Evidence, Instability, InstabilityKind, StabilityState, flutter_onsets,
 };
 
-/// Key of the criterion of stability at the operating speed.
-const OPERATING: &str = "operating";
-
 impl Limits {
-    /// Evaluates every limit on critical speeds and bands.
-    pub fn criteria(&self, found: &Evidence<'_>) -> Vec<Criterion> {
+    /// Evaluates every limit on critical speeds and bands that were found with this accuracy.
+    pub fn criteria(&self, found: &Evidence<'_>, accuracy: Accuracy) -> Vec<Criterion> {
         let lowest_critical = found.critical_rad_per_s.first().copied();
         let [flutter_speed, _] = flutter_onsets(found.bands, found.threshold_per_s);
-        let mut criteria = vec![self.of_margin(lowest_critical), self.of_operation(found)];
+        let mut criteria = vec![
+            self.of_margin(lowest_critical),
+            self.of_operation(found, accuracy),
+        ];
         criteria.extend(self.min_critical_rad_per_s.map(|asked| {
             let nowhere = "no critical speed was found".to_owned();
             at_least(
@@ -73,49 +74,28 @@ impl Limits {
         }
     }
 
-    /// Fails the criterion of stability at the operating speed, because the error of the edge of a band decides it.
-    pub(super) fn leave_open(
-        &self,
-        criteria: &mut [Criterion],
-        found: UndecidedEdge,
-        remedy: &str,
-    ) {
-        let operation = criteria
-            .iter_mut()
-            .find(|criterion| criterion.key == OPERATING);
-        if let Some(criterion) = operation {
-            criterion.passed = false;
-            criterion.finding = format!(
-                "too close to call at {} rpm: the edge of a band, {:.2} rpm, has an estimated error of {:.2} rpm; {remedy}",
-                typed_rpm(self.operating_rad_per_s),
-                rpm(found.edge_rad_per_s),
-                rpm(found.error_rad_per_s)
-            );
-        }
-    }
-
     /// Criterion of stability at the operating speed.
-    fn of_operation(&self, found: &Evidence<'_>) -> Criterion {
+    fn of_operation(&self, found: &Evidence<'_>, accuracy: Accuracy) -> Criterion {
         let operating = self.operating_rad_per_s;
         let verdict = found.verdict(operating);
-        let kind = verdict.band.map(|index| match found.bands[index].kind {
-            InstabilityKind::Divergence => "divergence",
-            InstabilityKind::Flutter => "flutter",
-        });
-        let operating_rpm = typed_rpm(operating);
+        let at = format!("{} rpm", typed_rpm(operating));
+        let finding = match (verdict.state, verdict.stretch, verdict.undecided) {
+            (StabilityState::TooClose, _, Some(edge)) => {
+                let why = too_close(rpm(edge.speed), rpm(edge.error), accuracy);
+                format!("too close to call at {at}: {why}")
+            }
+            (StabilityState::OutsideSweep, ..) => format!("{at} is outside the sweep"),
+            (StabilityState::Divergence, Some(range), _) => within(&at, "divergence", range),
+            (StabilityState::Flutter, Some(range), _) => within(&at, "flutter", range),
+            _ => format!("no instability at {at}"),
+        };
         Criterion {
-            key: OPERATING.to_owned(),
+            key: "operating".to_owned(),
             name: "stability at the operating speed".to_owned(),
-            finding: match (kind, verdict.stretch) {
-                (Some(kind), Some(range)) => {
-                    let [from, to] = range.ends().map(rpm);
-                    format!("{operating_rpm} rpm lies within {kind} from {from:.0} to {to:.0} rpm")
-                }
-                _ => format!("no instability at {operating_rpm} rpm"),
-            },
+            finding,
             found_rpm: verdict.stretch.map(|range| rpm(range.from_rad_per_s)),
             asked_rpm: rpm(operating),
-            passed: verdict.stretch.is_none(),
+            passed: verdict.state == StabilityState::Stable,
         }
     }
 
@@ -189,6 +169,12 @@ impl Limits {
             passed: found.is_none_or(|found| found > asked),
         })
     }
+}
+
+/// States that a speed is within a band.
+fn within(speed: &str, kind: &str, range: SpeedRange) -> String {
+    let [from, to] = range.ends().map(rpm);
+    format!("{speed} lies within {kind} from {from:.0} to {to:.0} rpm")
 }
 
 /// A speed in rpm with six digits, so that the rounding error of conversion to rad/s and back is not visible.

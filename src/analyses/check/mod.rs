@@ -24,7 +24,7 @@ mod static_deflection;
 
 use faer::Scale;
 
-use crate::analyses::campbell::{InstabilityBand, Numbered, add_amplitudes, lifting_off, sharper};
+use crate::analyses::campbell::{InstabilityBand, Numbered, add_amplitudes, lifting_off};
 use crate::analyses::deflect::PointLoad;
 use crate::model::scene::{Scene, SceneError, SpeedRange, rpm};
 use crate::modes::SpectrumError;
@@ -38,8 +38,9 @@ use criteria::{of_gaps, without_stiffness};
 pub(crate) use limits::RIM_LIMIT_M_PER_S;
 pub use limits::{Limits, LimitsFile};
 pub use report::{CheckReport, Criterion, RimStiffness};
-use rim::{point_load_plate, rim_at_cut};
-pub(crate) use rim::{rim_stiffness_at_rest_n_per_m, side_force_factor};
+pub(crate) use rim::{
+    point_load_plate, rim_at_cut, rim_stiffness_at_rest_n_per_m, side_force_factor,
+};
 use static_deflection::StaticDeflection;
 
 /// Reason for which a check failed to run.
@@ -79,10 +80,7 @@ pub fn check(scene: &Scene, limits: &Limits) -> Result<CheckReport, CheckError> 
     });
     let bending =
         lowest_critical.and_then(|critical| StaticDeflection::new(plate, angle, lateral, critical));
-    let mut criteria = limits.criteria(&analysis.evidence(&critical));
-    if let Some(edge) = analysis.undecided(operating) {
-        limits.leave_open(&mut criteria, edge, sharper(scene.accuracy()));
-    }
+    let mut criteria = limits.criteria(&analysis.evidence(&critical), scene.accuracy());
     criteria.push(limits.of_rim(plate.blade.outer_radius_m));
     let of_gaps = of_gaps(scene, plate, bending.as_ref(), operating);
     let warnings = warnings(analysis, limits, of_gaps.len());

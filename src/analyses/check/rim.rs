@@ -19,7 +19,7 @@ const DISTANCE_ERROR: f64 = 0.1;
 
 /// The plate of an analysis on a basis for point loads, in which critical speeds are at least as accurate as in the
 /// analysis.
-pub(super) fn point_load_plate(analysis: &Analysis) -> Plate {
+pub(crate) fn point_load_plate(analysis: &Analysis) -> Plate {
     let own = analysis.model.plate.resolution;
     let resolution = Resolution {
         max_diameters: own.max_diameters.max(POINT_LOAD_BASIS.max_diameters),
@@ -29,7 +29,7 @@ pub(super) fn point_load_plate(analysis: &Analysis) -> Plate {
 }
 
 /// The rim at the cut.
-pub(super) fn rim_at_cut(scene: &Scene) -> Polar {
+pub(crate) fn rim_at_cut(scene: &Scene) -> Polar {
     Polar::new(scene.blade().outer_radius_m, scene.cut_angle_rad())
 }
 

@@ -27,11 +27,17 @@ impl PointLoad {
             .then_some(PointLoad { system, point })
     }
 
+    /// K(Ω)⁻¹ φ, coordinates of the deflection for a force of 1 N; `None` where K(Ω) is singular.
+    pub fn deflected(&self, speed_rad_per_s: f64) -> Option<Col<f64>> {
+        let factor = self.system.stiffness_at(speed_rad_per_s).partial_piv_lu();
+        let deflected = factor.solve(&self.point);
+        let is_finite = deflected.iter().all(|q| q.is_finite());
+        is_finite.then_some(deflected)
+    }
+
     /// φᵀ K(Ω)⁻¹ φ, deflection over force at the point; `None` where K(Ω) is singular.
     pub fn compliance_m_per_n(&self, speed_rad_per_s: f64) -> Option<f64> {
-        let factor = self.system.stiffness_at(speed_rad_per_s).partial_piv_lu();
-        let compliance = self.point.transpose() * factor.solve(&self.point);
-        Some(compliance).filter(|m_per_n| m_per_n.is_finite())
+        Some(self.point.transpose() * self.deflected(speed_rad_per_s)?)
     }
 }
 

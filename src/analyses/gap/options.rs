@@ -59,7 +59,7 @@ impl Options {
             Err(RefusedValue::missing(
                 "guides[].contact",
                 "\"one_sided\" for at least one guide",
-                "a linear guide acts at any deflection; give contact as \"one_sided\" and gap_m",
+                "a linear guide acts at any deflection; give contact as \"one_sided\" and gap_m, or give the command a gap to try",
             ))
         }
     }

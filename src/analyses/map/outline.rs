@@ -1,6 +1,7 @@
 //! The text of a map.
 
 use super::{MapAxis, MapReport, MappedSaw};
+use crate::analyses::campbell::sharper;
 use crate::analyses::study::accuracy_of_saws;
 use crate::page::outline::{Column, Outline, PLAIN, SPEED, Table, Value};
 use crate::page::text::{shown, shown_to};
@@ -71,14 +72,22 @@ fn verdict(report: &MapReport) -> String {
             100.0 * CRITICAL_MARGIN
         ),
     };
-    let [stable, divergence, flutter] = [
+    let [stable, divergence, flutter, open] = [
         StabilityState::Stable,
         StabilityState::Divergence,
         StabilityState::Flutter,
+        StabilityState::TooClose,
     ]
     .map(count);
+    let open = match open {
+        0 => String::new(),
+        count => format!(
+            ", {count} are too close to the edge of a band to call; {}",
+            sharper(report.scene.accuracy)
+        ),
+    };
     format!(
-        "At {rpm:.0} rpm {stable} of {judged} saws are stable{critical}, {divergence} diverge, {flutter} flutter"
+        "At {rpm:.0} rpm {stable} of {judged} saws are stable{critical}, {divergence} diverge, {flutter} flutter{open}"
     )
 }
 
@@ -152,6 +161,7 @@ fn saws_of(report: &MapReport) -> Table {
             Some(StabilityState::Stable) => "stable".into(),
             Some(StabilityState::Divergence) => "divergence".into(),
             Some(StabilityState::Flutter) => "flutter".into(),
+            Some(StabilityState::TooClose) => "too close".into(),
             Some(StabilityState::OutsideSweep) => "outside sweep".into(),
         };
         [

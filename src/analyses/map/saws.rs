@@ -5,7 +5,7 @@ use super::{Contour, Contoured, Map, MapReport, MappedSaw};
 use crate::analyses::campbell::InstabilityBand;
 use crate::analyses::study::{Found, LogError, Rows, Saw};
 use crate::model::scene::rpm;
-use crate::stability::{StabilityState, critical_at};
+use crate::stability::{StabilityState, critical_at, edges, undecided};
 
 impl Map {
     /// Reports the saws from their logs.
@@ -62,7 +62,7 @@ impl Map {
                 .map(|place| found.critical_rpm[place]),
             critical_rpm: found.critical_rpm.iter().copied().filter(within).collect(),
             instabilities: found.bands.clone(),
-            state: judged_rpm.map(|rpm| state_at(&found.bands, rpm)),
+            state: judged_rpm.map(|rpm| state_at(&found.bands, rpm, end_rpm)),
             not_analysed: saw.outcome.reason().map(str::to_owned),
         }
     }
@@ -86,11 +86,23 @@ impl Map {
     }
 }
 
-/// Whether a saw with these bands is stable at a speed within its sweep, decided as [`Evidence::verdict`] does for an
+/// Whether a saw with these bands is stable at a speed within its sweep from rest to `end_rpm`, decided as [`Evidence::verdict`] does for an
 /// analysis.
 ///
 /// [`Evidence::verdict`]: crate::stability::Evidence::verdict
-pub fn state_at(bands: &[InstabilityBand], rpm: f64) -> StabilityState {
+pub fn state_at(bands: &[InstabilityBand], rpm: f64, end_rpm: f64) -> StabilityState {
+    let edges = bands.iter().flat_map(|band| {
+        let stretches = band.counted_rpm.iter().copied();
+        edges(
+            [band.from_rpm, band.to_rpm],
+            stretches,
+            band.estimated_relative_error,
+            [0.0, end_rpm],
+        )
+    });
+    if undecided(edges, rpm).is_some() {
+        return StabilityState::TooClose;
+    }
     let around = |[from, to]: &[f64; 2]| (*from..=*to).contains(&rpm);
     let counted = bands
         .iter()

@@ -50,7 +50,14 @@ fn divergence_counts_before_flutter() {
     let flutter = band(InstabilityKind::Flutter, &[[1020.0, 1080.0]]);
     let divergence = band(InstabilityKind::Divergence, &[[1000.0, 1050.0]]);
     let bands = [flutter, divergence];
-    let states = [990.0, 1010.0, 1030.0, 1060.0, 1090.0].map(|rpm| state_at(&bands, rpm));
-    use StabilityState::{Divergence, Flutter, Stable};
+    let states = [990.0, 1010.0, 1030.0, 1060.0, 1090.0].map(|rpm| state_at(&bands, rpm, 2000.0));
+    use StabilityState::{Divergence, Flutter, Stable, TooClose};
     assert_eq!(states, [Stable, Divergence, Divergence, Flutter, Stable]);
+    // An edge of which the error exceeds the distance.
+    let known = bands.map(|band| InstabilityBand {
+        estimated_relative_error: Some(0.002),
+        ..band
+    });
+    let states = [997.0, 999.0, 1001.0, 1003.0].map(|rpm| state_at(&known, rpm, 2000.0));
+    assert_eq!(states, [Stable, TooClose, TooClose, Divergence]);
 }

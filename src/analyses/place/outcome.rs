@@ -79,6 +79,7 @@ impl Question {
         let [flutter, _] = flutter_onsets(&bands, threshold);
         let evidence = Evidence {
             bands: &bands,
+            edge_errors: Vec::new(),
             critical_rad_per_s: &critical_rad_per_s,
             threshold_per_s: threshold,
             range_rad_per_s: self.range,

@@ -10,11 +10,13 @@ mod change;
 mod decisive_speed;
 mod error;
 mod outline;
+mod pad;
 
 pub use change::Change;
 pub use decisive_speed::{DecidedSpeed, DecisiveSpeed};
 pub use error::DesignError;
 pub(crate) use outline::outline;
+pub use pad::LoadedPad;
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -62,6 +64,9 @@ pub struct DesignReport {
     pub raised: DecidedSpeed,
     /// The changes of one number that raise it most, the best first.
     pub changes: Vec<Change>,
+    /// Linear pads under the side force at the cut at the operating speed; empty unless the saw is stable there.
+    #[serde(default)]
+    pub pads: Vec<LoadedPad>,
     /// Guides with a gap; null if no guide is one-sided.
     pub gap: Option<GapReport>,
     /// Remarks on the validity of the result.
@@ -103,6 +108,7 @@ pub fn report(scene: &Scene, options: &Options) -> Result<DesignReport, DesignEr
         deciding,
         raised,
     )?;
+    let pads = LoadedPad::all(deciding_analysis);
     let one_sided = gap::Options::default();
     let gap = match one_sided.checked(scene) {
         Ok(()) => Some(gap(&still, &one_sided)?),
@@ -133,6 +139,7 @@ pub fn report(scene: &Scene, options: &Options) -> Result<DesignReport, DesignEr
         speeds,
         raised,
         changes,
+        pads,
         gap,
         warnings,
     })

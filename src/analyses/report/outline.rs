@@ -1,10 +1,10 @@
 //! The text of a report for a decision.
 
-use super::{Change, DecisiveSpeed, DesignReport};
+use super::{Change, DecisiveSpeed, DesignReport, LoadedPad};
 use crate::analyses::campbell::{Report, answer, checks};
 use crate::analyses::{gap, response};
 use crate::model::scene::Quantity;
-use crate::page::outline::{Column, Outline, SPEED, Table, Value};
+use crate::page::outline::{Column, FORCE, Fact, Outline, SPEED, Table, Value};
 use crate::page::text::shown;
 
 pub fn outline(report: &DesignReport) -> Outline {
@@ -26,6 +26,7 @@ pub fn outline(report: &DesignReport) -> Outline {
     text.sentence(response::verdict(&report.response));
     text.table(speeds(report));
     text.table(changes(report));
+    text.extend(pads(report));
     if let Some(gap) = &report.gap {
         text.extend(gap::answer(gap));
     }
@@ -35,7 +36,55 @@ pub fn outline(report: &DesignReport) -> Outline {
         }
         checks(&mut text, analysis);
     }
+    text.extend(assumed(report));
     text.remarks("Warning", &report.warnings);
+    text
+}
+
+/// The forces of linear pads under the side force.
+fn pads(report: &DesignReport) -> Outline {
+    let mut text = Outline::default();
+    if let Some(LoadedPad {
+        rpm, side_force_n, ..
+    }) = report.pads.first()
+    {
+        let force = |pad: &LoadedPad| FORCE.digits(3, pad.force_n);
+        let each = report
+            .pads
+            .iter()
+            .map(|pad| Fact::new(format!("guides[{}]", pad.guide), force(pad)));
+        let title = format!(
+            "Forces on the pads under {} N at the cut at {rpm:.0} rpm",
+            shown(*side_force_n)
+        );
+        text.facts(title, each.collect::<Vec<_>>());
+    }
+    text
+}
+
+/// What the program took where the scene says nothing.
+fn assumed(report: &DesignReport) -> Outline {
+    let scene = &report.scene;
+    let force = scene.side_force.and_then(|force| force.force_n);
+    let parts = [
+        force.is_none().then(|| {
+            format!(
+                "a side force of {} N (side_force.force_n)",
+                shown(scene.side_force_n())
+            )
+        }),
+        scene.sweep.is_none().then(|| {
+            format!(
+                "speeds up to {:.0} rpm (sweep)",
+                report.idling.campbell.to_rpm
+            )
+        }),
+    ];
+    let parts: Vec<String> = parts.into_iter().flatten().collect();
+    let mut text = Outline::default();
+    if !parts.is_empty() {
+        text.sentence(format!("Assumed, not in the scene: {}", parts.join(", ")));
+    }
     text
 }
 

@@ -11,7 +11,7 @@ use crate::model::system::GyroscopicSystem;
 use crate::modes::SpectrumError;
 use crate::motion::steady::{Cause, Family, Load, State};
 use crate::motion::transient::{at_point, linear_limit_m};
-use crate::stability::{Analysis, StabilityState};
+use crate::stability::Analysis;
 
 /// Whether motions of a saw grow, and whether anything dissipates their energy.
 pub(super) struct Motion<'a>(pub &'a Analysis);
@@ -29,7 +29,7 @@ impl Motion<'_> {
         let is_inside = bands.any(|band| {
             band.from_rad_per_s * (1.0 + END) < speed && speed < band.to_rad_per_s * (1.0 - END)
         });
-        is_inside && self.0.verdict(speed).state != StabilityState::Stable
+        is_inside && self.0.verdict(speed).band.is_some()
     }
 }
 

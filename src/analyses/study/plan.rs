@@ -215,11 +215,14 @@ impl Study {
     pub(super) fn criteria_of_nothing(&self) -> Vec<Criterion> {
         let nothing = Evidence {
             bands: &[],
+            edge_errors: Vec::new(),
             critical_rad_per_s: &[],
             threshold_per_s: 0.0,
             range_rad_per_s: SpeedRange::new(0.0, self.to_rad_per_s),
         };
-        let criteria = self.limits.map(|limits| limits.criteria(&nothing));
+        let criteria = self
+            .limits
+            .map(|limits| limits.criteria(&nothing, self.scene.accuracy()));
         criteria.unwrap_or_default()
     }
 }

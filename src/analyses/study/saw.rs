@@ -155,8 +155,11 @@ impl Study {
     }
 
     fn with_onsets(&self, scene: &Scene, onsets: Onsets) -> Result<Found, GapError> {
+        // Speeds of edges have at least the error of the critical speeds.
+        let edge_error = Some(onsets.estimated_relative_error);
         let evidence = Evidence {
             bands: &onsets.instabilities,
+            edge_errors: vec![edge_error; onsets.instabilities.len()],
             critical_rad_per_s: &onsets.critical_rad_per_s,
             threshold_per_s: scene.flutter_threshold_per_s(),
             range_rad_per_s: SpeedRange::new(0.0, self.to_rad_per_s()),
@@ -175,12 +178,17 @@ impl Study {
             }
             _ => vec![None; self.gap_columns().len()],
         };
-        let criteria = self.limits().map(|limits| limits.criteria(&evidence));
+        let criteria = self
+            .limits()
+            .map(|limits| limits.criteria(&evidence, scene.accuracy()));
         let (mut bands, mut critical_rpm) = (Vec::new(), Vec::new());
         if self.file().bands {
             let threshold = scene.flutter_threshold_per_s();
             let listed = onsets.instabilities.iter();
-            bands.extend(listed.map(|band| InstabilityBand::new(band, threshold)));
+            bands.extend(listed.map(|band| InstabilityBand {
+                estimated_relative_error: edge_error,
+                ..InstabilityBand::new(band, threshold)
+            }));
             let end = self.to_rad_per_s();
             let critical = onsets.critical_rad_per_s.iter();
             let near = critical.take_while(|speed| (1.0 - CRITICAL_MARGIN) * **speed <= end);

@@ -10,7 +10,7 @@ use anyhow::Context;
 use clap::Args;
 
 use super::batch;
-use super::common::{Changes, Output, number, read_scene};
+use super::common::{self, Changes, Output, hertz, read_scene};
 use super::output::NamedFile;
 use super::output::OutputFolder;
 use super::page::Page;
@@ -25,10 +25,10 @@ Examples:
   cat my-saw.json | sawflutter analyze -              # a scene from a program
   sawflutter analyze my-saw.json --accuracy reference # slower, for comparisons
   sawflutter analyze --set blade.thickness_m=2.6mm    # a thinner blade
-  sawflutter analyze --at-rpm 1800                    # the modes of one speed
+  sawflutter analyze --rpm 1800                       # the modes of one speed
   sawflutter analyze --shapes                         # the shape at each event
   sawflutter analyze --amplitude                      # how far flutter rises
-  sawflutter analyze --draw-to-rpm 2000               # a part of the sweep
+  sawflutter analyze --draw-to 2000                   # a part of the sweep
   sawflutter analyze --in-cut 2800                    # with forces of a cut
   sawflutter analyze --shapes --report page.html      # one page, to print
   sawflutter analyze --json | jq .flutter_speed_rpm   # for scripts";
@@ -52,7 +52,7 @@ pub struct Arguments {
     /// Also say how far the flutter of each band rises, in millimetres, without damping
     #[arg(long)]
     amplitude: bool,
-    /// Also show the shape of the blade at every critical speed, in every band, at the operating speed and at --at-rpm:
+    /// Also show the shape of the blade at every critical speed, in every band, at the operating speed and at --rpm:
     /// modes.png and modes.svg
     #[arg(long)]
     shapes: bool,
@@ -60,11 +60,11 @@ pub struct Arguments {
     #[arg(long)]
     vtk: bool,
     /// Also list the modes at this speed: frequency, direction, growth, damping, Krein sign
-    #[arg(long, value_name = "RPM", allow_negative_numbers = true, value_parser = number)]
-    at_rpm: Option<f64>,
+    #[arg(long, value_name = "RPM", allow_negative_numbers = true, value_parser = common::rpm)]
+    rpm: Option<f64>,
     /// Chart the saw under the forces of its cut at this speed, beside the idling saw; by default
     /// the operating speed
-    #[arg(long, value_name = "RPM", num_args = 0..=1, allow_negative_numbers = true, value_parser = number)]
+    #[arg(long, value_name = "RPM", num_args = 0..=1, allow_negative_numbers = true, value_parser = common::rpm)]
     in_cut: Option<Option<f64>>,
     #[command(flatten)]
     drawn: Drawn,
@@ -76,35 +76,35 @@ pub struct Arguments {
 #[derive(Args, Default)]
 struct Drawn {
     /// Draw the Campbell diagram from this speed on
-    #[arg(long, value_name = "RPM", value_parser = number)]
-    draw_from_rpm: Option<f64>,
+    #[arg(long, value_name = "RPM", value_parser = common::rpm)]
+    draw_from: Option<f64>,
     /// Draw it up to this speed; by default the whole sweep, or its first 40 bands
-    #[arg(long, value_name = "RPM", value_parser = number)]
-    draw_to_rpm: Option<f64>,
+    #[arg(long, value_name = "RPM", value_parser = common::rpm)]
+    draw_to: Option<f64>,
     /// Draw it up to this frequency; by default as high as bands, reflected waves and the lowest modes reach
-    #[arg(long, value_name = "HZ", value_parser = number)]
-    draw_to_hz: Option<f64>,
+    #[arg(long, value_name = "HZ", value_parser = hertz)]
+    draw_to_frequency: Option<f64>,
 }
 
 impl Drawn {
     /// The part of the diagram to draw, of a chart from the first to the last speed in rpm.
     fn view(&self, [first, last]: [f64; 2]) -> anyhow::Result<CampbellView> {
-        let from = self.draw_from_rpm.unwrap_or(first);
-        let to = self.draw_to_rpm.unwrap_or(last);
+        let from = self.draw_from.unwrap_or(first);
+        let to = self.draw_to.unwrap_or(last);
         anyhow::ensure!(
             first <= from && from < to && to <= last,
-            "--draw-from-rpm {from} and --draw-to-rpm {to} do not name a part of the sweep, which goes from {first} to {last} rpm"
+            "--draw-from {from} and --draw-to {to} do not name a part of the sweep, which goes from {first} to {last} rpm"
         );
-        if let Some(hz) = self.draw_to_hz {
+        if let Some(hz) = self.draw_to_frequency {
             anyhow::ensure!(
                 hz > 0.0 && hz.is_finite(),
-                "--draw-to-hz is {hz}, but the picture needs a frequency above 0 Hz"
+                "--draw-to-frequency is {hz}, but the picture needs a frequency above 0 Hz"
             );
         }
         Ok(CampbellView {
-            from_rpm: self.draw_from_rpm,
-            to_rpm: self.draw_to_rpm,
-            to_hz: self.draw_to_hz,
+            from_rpm: self.draw_from,
+            to_rpm: self.draw_to,
+            to_hz: self.draw_to_frequency,
         })
     }
 }
@@ -207,8 +207,8 @@ fn watched_report(
     let mut report = analysis.report();
     let range = analysis.range_rad_per_s;
     let asked = arguments
-        .at_rpm
-        .map(|rpm| range.speed_at("--at-rpm", rpm))
+        .rpm
+        .map(|rpm| range.speed_at("--rpm", rpm))
         .transpose()?;
     if let Some(speed) = asked {
         report.whirl = Some(Whirl::new(&analysis, speed)?);

@@ -6,7 +6,7 @@ use crate::analyses::check::{CheckReport, Limits, LimitsFile, RIM_LIMIT_M_PER_S,
 use crate::model::scene::Scene;
 use clap::Args;
 
-use super::common::{Input, number, of_option, say, words};
+use super::common::{Input, metres_per_second, millimetres, of_option, rpm, say, share, words};
 use super::output::OutputFolder;
 use super::page::Page;
 use super::pictures::drawn;
@@ -14,10 +14,10 @@ use super::progress::watched;
 
 pub const EXAMPLES: &str = "\
 Examples:
-  sawflutter check my-saw.json --operating-rpm 2400
-  sawflutter check my-saw.json --min-flutter-rpm 2000 --min-critical-rpm 1500
-  sawflutter check --operating-rpm 1250 --json | jq .passed
-  sawflutter check my-saw.json --max-amplitude-mm 0.5
+  sawflutter check my-saw.json --rpm 2400
+  sawflutter check my-saw.json --min-flutter 2000 --min-critical 1500
+  sawflutter check --rpm 1250 --json | jq .passed
+  sawflutter check my-saw.json --max-amplitude 0.5mm
   sawflutter check my-saw.json --out checked # with a picture
 
 Exit code: 0 every limit is kept, 1 one is not, 2 the input was refused.";
@@ -26,30 +26,30 @@ Exit code: 0 every limit is kept, 1 one is not, 2 the input was refused.";
 pub struct Arguments {
     #[command(flatten)]
     input: Input,
-    #[arg(long, value_name = "RPM", allow_negative_numbers = true, value_parser = number,
+    #[arg(long, value_name = "RPM", allow_negative_numbers = true, value_parser = rpm,
         help = const { words("check", "operating_rpm") })]
-    operating_rpm: Option<f64>,
+    rpm: Option<f64>,
     #[arg(long,
         value_name = "SHARE",
         default_value_t = 0.85,
-        allow_negative_numbers = true, value_parser = number,
+        allow_negative_numbers = true, value_parser = share,
         help = const { words("check", "margin") })]
     margin: f64,
-    #[arg(long, value_name = "RPM", allow_negative_numbers = true, value_parser = number,
+    #[arg(long, value_name = "RPM", allow_negative_numbers = true, value_parser = rpm,
         help = const { words("check", "min_flutter_rpm") })]
-    min_flutter_rpm: Option<f64>,
-    #[arg(long, value_name = "RPM", allow_negative_numbers = true, value_parser = number,
+    min_flutter: Option<f64>,
+    #[arg(long, value_name = "RPM", allow_negative_numbers = true, value_parser = rpm,
         help = const { words("check", "min_critical_rpm") })]
-    min_critical_rpm: Option<f64>,
+    min_critical: Option<f64>,
     #[arg(long,
         value_name = "M/S",
         default_value_t = RIM_LIMIT_M_PER_S,
-        allow_negative_numbers = true, value_parser = number,
+        allow_negative_numbers = true, value_parser = metres_per_second,
         help = const { words("check", "max_rim_m_per_s") })]
-    max_rim_m_per_s: f64,
-    #[arg(long, value_name = "MM", allow_negative_numbers = true, value_parser = number,
+    max_rim: f64,
+    #[arg(long, value_name = "LENGTH", allow_negative_numbers = true, value_parser = millimetres,
         help = const { words("check", "max_amplitude_m") })]
-    max_amplitude_mm: Option<f64>,
+    max_amplitude: Option<f64>,
     #[arg(long, help = const { words("check", "accept_unusual") })]
     accept_unusual: bool,
     /// Print the result as JSON
@@ -91,15 +91,15 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<bool> {
 /// The limits of the options, with the operating speed of the scene by default.
 fn limits(arguments: &Arguments, scene: &Scene) -> anyhow::Result<Limits> {
     let asked = LimitsFile {
-        operating_rpm: arguments.operating_rpm,
+        operating_rpm: arguments.rpm,
         margin: arguments.margin,
-        min_flutter_rpm: arguments.min_flutter_rpm,
-        min_critical_rpm: arguments.min_critical_rpm,
+        min_flutter_rpm: arguments.min_flutter,
+        min_critical_rpm: arguments.min_critical,
     };
     let limits = asked
         .limits(scene)
-        .and_then(|limits| limits.with_rim_speed(arguments.max_rim_m_per_s))
-        .and_then(|limits| limits.with_amplitude(arguments.max_amplitude_mm))
+        .and_then(|limits| limits.with_rim_speed(arguments.max_rim))
+        .and_then(|limits| limits.with_amplitude(arguments.max_amplitude))
         .map_err(of_option)?;
     Ok(Limits {
         accept_unusual: arguments.accept_unusual,

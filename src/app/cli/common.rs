@@ -3,9 +3,9 @@
 use std::io::Write;
 use std::path::{Path, PathBuf};
 
-use crate::analyses::commands::{Argument, CommandReport};
+use crate::analyses::commands::{Argument, CALLS, CommandReport};
 use crate::model::scene::{
-    Accuracy, RefusedValue, SCENE_TEXT, Scene, SceneError, Setting, quantity,
+    Accuracy, RefusedValue, SCENE_TEXT, Scene, SceneError, Setting, number_in, quantity,
 };
 use crate::page::text::{FileError, Kind, printable, read_path, read_stream, shown};
 use anyhow::Context;
@@ -41,7 +41,7 @@ pub struct Changes {
         long,
         value_name = "SHARE",
         conflicts_with = "accuracy",
-        value_parser = number,
+        value_parser = share,
         help = tolerance_help()
     )]
     tolerance: Option<f64>,
@@ -140,9 +140,15 @@ pub fn refused(path: &Path, error: anyhow::Error) -> anyhow::Error {
     error.context(format!("{name} was refused"))
 }
 
-/// The error of an option with its name on the command line, `--max-deviation-mm` for `max_deviation_mm`.
+/// The error of an option with its name on the command line, `--max-deviation` for `max_deviation_mm`.
 pub fn of_option(refused: RefusedValue) -> anyhow::Error {
-    let key = format!("--{}", refused.key.replace('_', "-"));
+    let name = refused.key.replace("_mm", "_m");
+    let mut all = CALLS.iter().flat_map(|call| call.arguments);
+    let option = all.find(|argument| argument.name == name && !argument.option.is_empty());
+    let key = match option {
+        Some(argument) => format!("--{}", argument.option),
+        None => format!("--{}", refused.key.replace('_', "-")),
+    };
     RefusedValue { key, ..refused }.into()
 }
 
@@ -160,15 +166,47 @@ pub fn with_settings<'a>(
     scene.file().set(&settings).with_context(refused)
 }
 
-/// Parses the number of an option.
-pub fn number(text: &str) -> Result<f64, String> {
-    let point = if text.contains(',') {
-        "; write it with a decimal point"
-    } else {
-        ""
-    };
-    let refused = |_| format!("it must be a number, like 1250 or 0.85{point}");
-    text.trim().parse().map_err(refused)
+/// Parses the number of an option, with or without a unit, in this unit.
+fn in_unit(unit: &str, text: &str) -> Result<f64, String> {
+    number_in("it", unit, text).map_err(|refused| refused.to_string())
+}
+
+/// Parses a rotation speed, in rpm.
+pub fn rpm(text: &str) -> Result<f64, String> {
+    in_unit("rpm", text)
+}
+
+/// Parses a frequency, in Hz.
+pub fn hertz(text: &str) -> Result<f64, String> {
+    in_unit("Hz", text)
+}
+
+/// Parses a velocity, in m/s.
+pub fn metres_per_second(text: &str) -> Result<f64, String> {
+    in_unit("m/s", text)
+}
+
+/// Parses an angle, in degrees.
+pub fn degrees(text: &str) -> Result<f64, String> {
+    in_unit("deg", text)
+}
+
+/// Parses a share, as a number or in percent.
+pub fn share(text: &str) -> Result<f64, String> {
+    in_unit("", text)
+}
+
+/// Parses a length, in metres.
+pub fn metres(text: &str) -> Result<f64, String> {
+    in_unit("m", text)
+}
+
+/// Parses a small length, in millimetres. It needs its unit, because without one it could be in metres, as in a scene, or in millimetres.
+pub fn millimetres(text: &str) -> Result<f64, String> {
+    if text.trim().ends_with(|c: char| c.is_ascii_digit()) {
+        return Err("it must be a length with its unit; write it like 0.1mm".to_owned());
+    }
+    in_unit("mm", text)
 }
 
 /// Parses the whole number of an option.

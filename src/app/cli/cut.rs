@@ -7,7 +7,7 @@ use clap::Args;
 
 use super::assumption::with_options;
 use super::block_text::pasted;
-use super::common::{Common, number, words};
+use super::common::{Common, rpm, words};
 use super::page::Page;
 use super::progress::watched;
 use super::shorthand::Given;
@@ -26,7 +26,7 @@ The forces are the scene's `cut`; `sawflutter schema` says what it may contain."
 pub struct Arguments {
     #[command(flatten)]
     common: Common,
-    #[arg(long, value_name = "RPM", allow_negative_numbers = true, value_parser = number,
+    #[arg(long, value_name = "RPM", allow_negative_numbers = true, value_parser = rpm,
         help = const { words("cut", "rpm") })]
     rpm: Vec<f64>,
     #[arg(long, help = const { words("cut", "stretching") })]

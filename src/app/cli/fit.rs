@@ -8,13 +8,13 @@ use crate::page::text::{Kind, OtherEncodings};
 use clap::Args;
 
 use super::bounds::named_bounds;
-use super::common::{Common, count, number, of_option, read_text, refused, words};
+use super::common::{Common, count, of_option, read_text, refused, rpm, share, words};
 use super::page::Page;
 use super::progress::watched;
 
 pub const EXAMPLES: &str = "\
 Examples:
-  sawflutter fit --to-rpm 1250            # the built-in saw to its own table
+  sawflutter fit --to 1250                # the built-in saw to its own table
   sawflutter fit my-saw.json measured.csv # radius and stiffness of every guide
   sawflutter fit my-saw.json measured.csv \\
     --free \"guides[0].radius_m=0.15..0.3\" \\
@@ -36,13 +36,13 @@ pub struct Arguments {
     #[arg(long, value_name = "PATH[=FROM..TO]",
         help = const { words("fit", "free") })]
     free: Vec<String>,
-    #[arg(long, value_name = "RPM", allow_negative_numbers = true, value_parser = number,
+    #[arg(long, value_name = "RPM", allow_negative_numbers = true, value_parser = rpm,
         help = const { words("fit", "to_rpm") })]
-    to_rpm: Option<f64>,
+    to: Option<f64>,
     #[arg(long,
         value_name = "SHARE",
         default_value_t = 0.95,
-        allow_negative_numbers = true, value_parser = number,
+        allow_negative_numbers = true, value_parser = share,
         help = const { words("fit", "confidence") })]
     confidence: f64,
     #[arg(long, value_name = "COUNT", default_value_t = 12, value_parser = count::<usize>,
@@ -65,7 +65,7 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<()> {
     let options = Options {
         confidence: arguments.confidence,
         starts: arguments.starts,
-        to_rpm: arguments.to_rpm.unwrap_or(f64::INFINITY),
+        to_rpm: arguments.to.unwrap_or(f64::INFINITY),
         ..Options::default()
     }
     .checked(&measurement)

@@ -6,7 +6,7 @@ use anyhow::Context;
 use clap::Args;
 
 use super::bounds::range;
-use super::common::{Changes, Output, number, of_option, read_scene};
+use super::common::{Changes, Output, of_option, read_scene};
 use super::page::Page;
 use super::study::{compute, print_part, shard};
 use super::{common, scheduler};
@@ -42,11 +42,11 @@ pub struct Arguments {
     #[arg(long, value_name = "COUNT", value_parser = common::count::<usize>)]
     points: Option<usize>,
     /// Speed at which the saws are judged; by default the operating speed
-    #[arg(long, value_name = "RPM", allow_negative_numbers = true, value_parser = number)]
+    #[arg(long, value_name = "RPM", allow_negative_numbers = true, value_parser = common::rpm)]
     rpm: Option<f64>,
     /// Last speed; by default the end of the scene's sweep
-    #[arg(long, value_name = "RPM", allow_negative_numbers = true, value_parser = number)]
-    to_rpm: Option<f64>,
+    #[arg(long, value_name = "RPM", allow_negative_numbers = true, value_parser = common::rpm)]
+    to: Option<f64>,
     #[command(flatten)]
     changes: Changes,
     /// Compute part k of n only, into a log of its own
@@ -102,7 +102,7 @@ fn planned(arguments: &Arguments) -> anyhow::Result<Map> {
         y: y.map(|text| named("--y", text)).transpose()?,
         points: arguments.points,
         rpm: arguments.rpm,
-        to_rpm: arguments.to_rpm,
+        to_rpm: arguments.to,
     };
     Map::new(scene, &options).map_err(|error| match error {
         StudyError::Value(refused) => of_option(refused),

@@ -127,7 +127,7 @@ Examples:
   sawflutter my-saw.json                # chart your own saw
   sawflutter saws/*.json                # chart many, and put them in a table
   sawflutter cut                        # is it stable in the wood?
-  sawflutter check --operating-rpm 1250 # does it keep the 85 % rule?
+  sawflutter check --rpm 1250           # does it keep the 85 % rule?
   sawflutter explore --open             # drag the guides in your browser
   sawflutter runup                      # how does it vibrate as it speeds up?
   sawflutter deflect                    # how far does it lean?
@@ -326,10 +326,10 @@ mod tests {
                 .map(OsString::from);
             Arguments::try_parse_from(words).err().unwrap().to_string()
         };
-        let fast = refused(&["check", "--operating-rpm", "fast"]);
-        assert!(fast.contains("it must be a number, like 1250"), "{fast}");
-        let comma = refused(&["check", "--margin", "0,85"]);
-        assert!(comma.contains("a decimal point"), "{comma}");
+        let fast = refused(&["check", "--rpm", "fast"]);
+        assert!(fast.contains("it must be a number in rpm"), "{fast}");
+        let comma = refused(&["check", "--rpm", "1,250"]);
+        assert!(comma.contains("write one of these"), "{comma}");
         let count = refused(&["place", "--samples", "2.5"]);
         assert!(count.contains("a whole number"), "{count}");
         for said in [fast, comma, count] {

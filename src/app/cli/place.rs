@@ -6,7 +6,7 @@ use crate::model::scene::{Freed, RefusedValue, Scene};
 use clap::{Args, ValueEnum};
 
 use super::bounds::named_bounds;
-use super::common::{Common, count, number, of_option, words};
+use super::common::{Common, count, degrees, metres, millimetres, of_option, rpm, share, words};
 use super::page::Page;
 use super::progress::watched;
 use super::shorthand::{Given, with_shorthands};
@@ -15,9 +15,9 @@ pub const EXAMPLES: &str = "\
 Examples:
   sawflutter place my-saw.json   # radius, angle, stiffness of guides[0]
   sawflutter place my-saw.json --free \"guides[0].radius_m=0.2..0.3\" \\
-    --free \"guides[0].angle_deg=-90..-20\" --min-critical-rpm 1500
+    --free \"guides[0].angle_deg=-90..-20\" --min-critical 1500
   sawflutter place --goal window # widest window around operating_rpm
-  sawflutter place --radius-tolerance-m 0.0005 --angle-tolerance-deg 0.2
+  sawflutter place --radius-tolerance 0.5mm --angle-tolerance 0.2
 The best saw is placed-scene.json; try it with `check` and `cut`. Without a saw
 that keeps the limits none is written.
 
@@ -38,39 +38,39 @@ pub struct Arguments {
     #[arg(long, value_name = "NAME", default_value = "flutter",
         help = const { words("place", "goal") })]
     goal: GoalName,
-    #[arg(long, value_name = "RPM", allow_negative_numbers = true, value_parser = number,
+    #[arg(long, value_name = "RPM", allow_negative_numbers = true, value_parser = rpm,
         help = const { words("place", "min_critical_rpm") })]
-    min_critical_rpm: Option<f64>,
-    #[arg(long, value_name = "MM", allow_negative_numbers = true, value_parser = number,
+    min_critical: Option<f64>,
+    #[arg(long, value_name = "LENGTH", allow_negative_numbers = true, value_parser = millimetres,
         help = const { words("place", "amplitude_m") })]
-    amplitude_mm: Option<f64>,
-    #[arg(long, value_name = "MM", allow_negative_numbers = true, value_parser = number,
+    amplitude: Option<f64>,
+    #[arg(long, value_name = "LENGTH", allow_negative_numbers = true, value_parser = millimetres,
         help = const { words("place", "max_deviation_m") })]
-    max_deviation_mm: Option<f64>,
+    max_deviation: Option<f64>,
     #[arg(long,
         value_name = "N",
         allow_hyphen_values = true,
-        requires = "max_deviation_mm",
+        requires = "max_deviation",
         help = const { words("place", "force_n") })]
-    force_n: Option<String>,
+    force: Option<String>,
     #[arg(long, value_name = "COUNT", default_value_t = 64, value_parser = count::<usize>,
         help = const { words("place", "samples") })]
     samples: usize,
     #[arg(long, value_name = "COUNT", default_value_t = 60, value_parser = count::<u64>,
         help = const { words("place", "refine") })]
     refine: u64,
-    #[arg(long, value_name = "M", default_value_t = Tolerances::USUAL.radius_m, allow_negative_numbers = true, value_parser = number,
+    #[arg(long, value_name = "LENGTH", default_value_t = Tolerances::USUAL.radius_m, allow_negative_numbers = true, value_parser = metres,
         help = const { words("place", "radius_tolerance_m") })]
-    radius_tolerance_m: f64,
-    #[arg(long, value_name = "DEG", default_value_t = Tolerances::USUAL.angle_deg, allow_negative_numbers = true, value_parser = number,
+    radius_tolerance: f64,
+    #[arg(long, value_name = "DEG", default_value_t = Tolerances::USUAL.angle_deg, allow_negative_numbers = true, value_parser = degrees,
         help = const { words("place", "angle_tolerance_deg") })]
-    angle_tolerance_deg: f64,
-    #[arg(long, value_name = "SHARE", default_value_t = Tolerances::USUAL.guide_share, allow_negative_numbers = true, value_parser = number,
+    angle_tolerance: f64,
+    #[arg(long, value_name = "SHARE", default_value_t = Tolerances::USUAL.guide_share, allow_negative_numbers = true, value_parser = share,
         help = const { words("place", "guide_tolerance_share") })]
-    guide_tolerance_share: f64,
-    #[arg(long, value_name = "SHARE", default_value_t = Tolerances::USUAL.other_share, allow_negative_numbers = true, value_parser = number,
+    guide_tolerance: f64,
+    #[arg(long, value_name = "SHARE", default_value_t = Tolerances::USUAL.other_share, allow_negative_numbers = true, value_parser = share,
         help = const { words("place", "other_tolerance_share") })]
-    other_tolerance_share: f64,
+    other_tolerance: f64,
     #[arg(long, value_name = "COUNT", default_value_t = 17, value_parser = count::<usize>,
         help = const { words("place", "map") })]
     map: usize,
@@ -90,7 +90,7 @@ enum GoalName {
 pub fn run(arguments: &Arguments) -> anyhow::Result<bool> {
     let given = [Given::new(
         &const { Argument::of("place", "force_n") },
-        &arguments.force_n,
+        &arguments.force,
     )];
     let scene = with_shorthands(arguments.common.scene()?, &given)?;
     let demands = demands(arguments, &scene)?;
@@ -99,10 +99,10 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<bool> {
         refine: arguments.refine.max(1),
         map: arguments.map,
         tolerances: Tolerances {
-            radius_m: arguments.radius_tolerance_m,
-            angle_deg: arguments.angle_tolerance_deg,
-            guide_share: arguments.guide_tolerance_share,
-            other_share: arguments.other_tolerance_share,
+            radius_m: arguments.radius_tolerance,
+            angle_deg: arguments.angle_tolerance,
+            guide_share: arguments.guide_tolerance,
+            other_share: arguments.other_tolerance,
         },
         ..Options::default()
     }
@@ -130,13 +130,8 @@ fn demands(arguments: &Arguments, scene: &Scene) -> anyhow::Result<Demands> {
         GoalName::Flutter => None,
         GoalName::Window => Some(scene.needed_operating_rpm(None)?),
     };
-    let demands = Demands::new(around_rpm, arguments.min_critical_rpm).map_err(of_option)?;
-    let Arguments {
-        amplitude_mm,
-        max_deviation_mm,
-        ..
-    } = *arguments;
-    let gap = GapDemands::new(scene, amplitude_mm, max_deviation_mm);
+    let demands = Demands::new(around_rpm, arguments.min_critical).map_err(of_option)?;
+    let gap = GapDemands::new(scene, arguments.amplitude, arguments.max_deviation);
     let refused = |refused: RefusedValue| {
         if refused.key.ends_with("_mm") {
             of_option(refused)

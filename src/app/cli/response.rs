@@ -3,7 +3,7 @@
 use crate::analyses::response::{Options, ResponseError, response};
 use clap::Args;
 
-use super::common::{Common, number, of_option, words};
+use super::common::{Common, hertz, of_option, rpm, words};
 use super::page::Page;
 use super::progress::watched;
 
@@ -12,7 +12,7 @@ Examples:
   sawflutter response my-saw.json              # what the scene has of causes
   sawflutter response my-saw.json --set side_force.force_n=5N \\
     --set response.flatness_m=0.05mm           # a side force, a warped blade
-  sawflutter response my-saw.json --rpm 1200 --to-hz 300
+  sawflutter response my-saw.json --rpm 1200 --to-frequency 300
                              # from the force to the probe, over the frequency
   sawflutter response my-saw.json --json | jq '.lines[].resonances'
 
@@ -23,12 +23,12 @@ imbalance_kg_m2 of the block `response`. Without any, the force is 1 N.";
 pub struct Arguments {
     #[command(flatten)]
     common: Common,
-    #[arg(long, value_name = "RPM", allow_negative_numbers = true, value_parser = number,
+    #[arg(long, value_name = "RPM", allow_negative_numbers = true, value_parser = rpm,
         help = const { words("response", "rpm") })]
     rpm: Option<f64>,
-    #[arg(long, value_name = "HZ", allow_negative_numbers = true, value_parser = number,
+    #[arg(long, value_name = "HZ", allow_negative_numbers = true, value_parser = hertz,
         help = const { words("response", "to_hz") })]
-    to_hz: Option<f64>,
+    to_frequency: Option<f64>,
     #[command(flatten)]
     page: Page,
 }
@@ -38,7 +38,7 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<()> {
     let scene = arguments.common.scene()?;
     let options = Options {
         rpm: arguments.rpm,
-        to_hz: arguments.to_hz,
+        to_hz: arguments.to_frequency,
     };
     options.checked().map_err(of_option)?;
     arguments.page.tried()?;

@@ -46,6 +46,8 @@ impl Ahead {
         if let Some(bands) = interim.bands {
             let evidence = Evidence {
                 bands,
+                // They are estimated when the diagram is complete.
+                edge_errors: Vec::new(),
                 critical_rad_per_s: &critical,
                 threshold_per_s: scene.flutter_threshold_per_s(),
                 range_rad_per_s: interim.range_rad_per_s,

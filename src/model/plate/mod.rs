@@ -28,8 +28,8 @@ mod resolution;
 mod stress;
 mod stretching;
 
-pub(crate) use contact::GapPotential;
 pub use contact::{Contact, ContactTerms};
+pub(crate) use contact::{GapPotential, mean_over};
 #[doc(hidden)]
 pub use edge_load::{BoreForce, EdgeStress, RimForce, edge_stiffness};
 #[doc(hidden)]

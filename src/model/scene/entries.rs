@@ -28,6 +28,18 @@ impl SceneFile {
         found
     }
 
+    /// Whether the key at a path has the value that the program takes for a scene without the key.
+    pub(crate) fn is_default(&self, path: &str) -> bool {
+        let pointer = format!("/{}", path.replace(['.', '['], "/").replace(']', ""));
+        let (block, key) = pointer.rsplit_once('/').unwrap_or_default();
+        let mut json = value(self);
+        let block = json.pointer_mut(block).and_then(Value::as_object_mut);
+        let Some(_) = block.and_then(|block| block.remove(key)) else {
+            return false;
+        };
+        serde_json::from_value::<SceneFile>(json).is_ok_and(|without| without == *self)
+    }
+
     /// Every value, in the order of the file. A number that is not finite is null.
     pub(super) fn values(&self) -> Vec<Entry> {
         let mut found = Vec::new();
@@ -95,5 +107,19 @@ fn below(value: Value, path: &str, found: &mut Vec<Entry>) {
             path: path.to_owned(),
             value,
         }),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::model::scene::Scene;
+
+    #[test]
+    fn a_default_is_what_a_scene_without_the_key_has() {
+        let mut saw = Scene::paper().file().clone();
+        assert!(!saw.is_default("blade.thickness_m") && !saw.is_default("guides[0].radius_m"));
+        assert!(saw.is_default("flutter_threshold_per_s"));
+        saw.flutter_threshold_per_s = 0.5;
+        assert!(!saw.is_default("flutter_threshold_per_s"));
     }
 }

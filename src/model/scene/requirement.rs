@@ -64,7 +64,7 @@ impl Cut {
     /// [`RefusedValue`] if the cut has none.
     pub(crate) fn needed_washboarding(&self) -> Result<&Washboarding, RefusedValue> {
         let allowed = "given, with the cutting stiffness across the blade";
-        let remedy = "add it to the scene's cut";
+        let remedy = "add it to the scene's cut, or give the command a stiffness to try";
         let washboarding = self.washboarding.as_ref();
         washboarding.ok_or_else(|| RefusedValue::missing("cut.washboarding", allowed, remedy))
     }

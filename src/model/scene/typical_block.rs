@@ -14,6 +14,13 @@ pub(crate) fn operating_rpm(scene: &SceneFile) -> f64 {
     scene.operating_rpm.unwrap_or_else(|| rounded(usual, 2))
 }
 
+/// A typical number of teeth for this blade.
+pub(crate) fn teeth(scene: &SceneFile) -> Value {
+    let pitch_m = const { typical_value("blade.teeth") };
+    let count = std::f64::consts::PI * scene.blade.outer_diameter_m / pitch_m;
+    json!(rounded(count, 2).max(1.0).round() as i64)
+}
+
 /// A typical cut for this blade.
 pub(crate) fn cut(scene: &SceneFile) -> Value {
     let depth_m = rounded(
@@ -37,6 +44,12 @@ pub(crate) fn cut(scene: &SceneFile) -> Value {
 /// A typical dependence of the cutting force on the surface left by the preceding tooth.
 pub(crate) fn washboarding() -> Value {
     json!({ "stiffness_n_per_m": short(const { typical_value("cut.washboarding.stiffness_n_per_m") }), "overlap": short(const { typical_value("cut.washboarding.overlap") }) })
+}
+
+/// The damping of a typical material.
+pub(crate) fn damping() -> Value {
+    let time_s = const { typical_value("damping.material_retardation_time_s") };
+    json!({ "material_retardation_time_s": time_s })
 }
 
 /// A typical run-up past the operating speed.

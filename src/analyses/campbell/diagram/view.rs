@@ -72,7 +72,7 @@ pub fn left_out(report: &Report, [from, to]: [f64; 2], labelled: usize) -> Vec<S
     let [first, last] = [report.campbell.from_rpm, report.campbell.to_rpm];
     if first < from || to < last {
         notes.push(format!(
-            "shown: {from:.0} to {to:.0} of {first:.0} to {last:.0} rpm (--draw-to-rpm)"
+            "shown: {from:.0} to {to:.0} of {first:.0} to {last:.0} rpm (--draw-to)"
         ));
     }
     let is_shown = |b: &&InstabilityBand| b.from_rpm <= to && from <= b.to_rpm;

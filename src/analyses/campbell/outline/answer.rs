@@ -33,12 +33,10 @@ pub enum Answer {
 impl Answer {
     /// Derives the answer from the verdict at the operating speed.
     pub fn new(operating: &OperatingPoint) -> Self {
-        if operating.undecided_edge_rpm.is_some() {
-            return Answer::TooClose;
-        }
         match operating.verdict {
             StabilityState::Divergence => Answer::Divergence,
             StabilityState::Flutter => Answer::Flutter,
+            StabilityState::TooClose => Answer::TooClose,
             StabilityState::OutsideSweep => Answer::OutsideSweep,
             StabilityState::Stable if operating.at_critical_rpm.is_some() => Answer::AtCritical,
             StabilityState::Stable if operating.within_limit == Some(false) => Answer::PastRule,
@@ -159,10 +157,18 @@ fn inside(band: &InstabilityBand) -> String {
 /// Names the edge of a band whose error leaves the answer open, and the remedy.
 fn undecided(report: &Report, operating: &OperatingPoint) -> Option<String> {
     let edge = operating.undecided_edge_rpm?;
-    Some(format!(
-        "the edge of a band, {edge:.2} rpm, is closer than its estimated error; {}",
-        sharper(report.accuracy.name)
-    ))
+    let mut bands = report.instabilities.iter();
+    let band = bands.find(|band| [band.from_rpm, band.to_rpm].contains(&edge))?;
+    let error = band.estimated_relative_error? * edge;
+    Some(too_close(edge, error, report.accuracy.name))
+}
+
+/// States that the estimated error of the edge of a band leaves open whether a saw is stable, and the remedy.
+pub fn too_close(edge_rpm: f64, error_rpm: f64, accuracy: Accuracy) -> String {
+    format!(
+        "the edge of a band, {edge_rpm:.2} rpm, has an estimated error of {error_rpm:.2} rpm; {}",
+        sharper(accuracy)
+    )
 }
 
 /// The remedy for a result that is not accurate enough.

@@ -13,6 +13,7 @@ pub fn whirl(text: &mut Outline, report: &Report) {
         StabilityState::Stable => "stable",
         StabilityState::Divergence => "UNSTABLE, divergence",
         StabilityState::Flutter => "UNSTABLE, flutter",
+        StabilityState::TooClose => "TOO CLOSE TO CALL at the edge of a band",
         StabilityState::OutsideSweep => "outside the sweep",
     };
     let critical = whirl.at_critical_rpm.map_or(String::new(), |rpm| {

@@ -12,6 +12,8 @@ use crate::stability::{CRITICAL_MARGIN, StabilityState};
 const AT_CRITICAL: Colour = plotters::style::RGBColor(196, 216, 232);
 /// Colour of stable saws, lighter than those of instability in grey prints too.
 const STABLE: Colour = plotters::style::RGBColor(228, 240, 228);
+/// Colour of saws whose state the error of an edge leaves open.
+const OPEN: Colour = plotters::style::RGBColor(150, 150, 150);
 const SCENE_SIZE: f64 = 10.0;
 
 /// State of a saw at the speed of the map.
@@ -21,15 +23,17 @@ enum State {
     AtCritical,
     Divergence,
     Flutter,
+    TooClose,
     NotAnalysed,
 }
 
 impl State {
-    const ALL: [State; 5] = [
+    const ALL: [State; 6] = [
         State::Stable,
         State::AtCritical,
         State::Divergence,
         State::Flutter,
+        State::TooClose,
         State::NotAnalysed,
     ];
 
@@ -44,6 +48,7 @@ impl State {
             Some(StabilityState::Stable) => Some(State::Stable),
             Some(StabilityState::Divergence) => Some(State::Divergence),
             Some(StabilityState::Flutter) => Some(State::Flutter),
+            Some(StabilityState::TooClose) => Some(State::TooClose),
         }
     }
 
@@ -53,6 +58,7 @@ impl State {
             State::AtCritical => AT_CRITICAL,
             State::Divergence => tint(DIVERGENCE_STREAK, 0.6),
             State::Flutter => tint(FLUTTER_STREAK, 0.6),
+            State::TooClose => OPEN,
             State::NotAnalysed => BLANK,
         }
     }
@@ -68,6 +74,7 @@ impl State {
             }
             State::Divergence => "divergence".to_owned(),
             State::Flutter => "flutter".to_owned(),
+            State::TooClose => "too close to the edge of a band to call".to_owned(),
             State::NotAnalysed => "not analysed".to_owned(),
         }
     }

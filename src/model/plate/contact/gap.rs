@@ -41,6 +41,17 @@ impl LiftingPads {
     }
 }
 
+/// The mean of the basis functions over a pad: times its stiffness, and with the coordinates of a deflection, it gives the force of a
+/// linear pad.
+pub(crate) fn mean_over(plate: &Plate, guide: &GuideFile) -> Col<f64> {
+    let mut mean = Col::zeros(plate.degrees_of_freedom());
+    for place in places(plate, guide, POINTS, POINTS) {
+        let functions = plate.functions_at(place.radius_m, place.angle_rad);
+        mean += Scale(place.share) * Col::from_fn(functions.len(), |i| functions[i]);
+    }
+    mean
+}
+
 /// Potential V of the pads of a plate that lift off, for deflections on r shapes with coordinates p.
 #[derive(Debug, Clone)]
 pub struct GapPotential {

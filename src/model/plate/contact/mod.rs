@@ -10,6 +10,7 @@ mod terms;
 mod wood;
 
 pub use gap::GapPotential;
+pub(crate) use gap::mean_over;
 pub use lifting::LiftingPads;
 pub use terms::ContactTerms;
 

@@ -35,8 +35,7 @@ fn speeds_in_other_units_are_recognized_by_the_speed_of_the_rim() {
         (20.8, "turns per second (Hz)? That would be 1248 rpm"),
         (50.0, "turns per second (Hz)? That would be 3000 rpm"),
     ] {
-        let remark =
-            unusual_number(&file, "--operating-rpm", "operating_rpm", value).unwrap_or_default();
+        let remark = unusual_number(&file, "--rpm", "operating_rpm", value).unwrap_or_default();
         assert!(remark.contains(said), "{value}: {remark}");
         assert!(remark.contains("run at 54 to 8070 rpm"), "{remark}");
         let ends = remarks(|file| file.sweep.as_mut().unwrap().to_rpm = value);
