@@ -43,7 +43,7 @@ def in_options(error: ArgumentError, options: Sequence[str]) -> str:
     named = "|".join(options)
 
     def option(name: str) -> str:
-        return "--" + name.replace("_", "-")
+        return "--" + name.replace("to_hz", "to_frequency").removesuffix("_hz").replace("_", "-")
 
     text = re.sub(rf"^({named})(?= must)", lambda of: option(of[1]), str(error))
     text = text.replace("rpm=(from, to)", "rpm=FROM..TO").replace("as speed or tacho", "as --speed or --tacho")

@@ -8,7 +8,7 @@ use serde_json::json;
 use crate::model::scene::Freed;
 
 use super::bounds::named_bounds;
-use super::common::{count, number, read_scene, say, words};
+use super::common::{count, read_scene, say, share, words};
 use super::output::OutputFolder;
 use super::python::Need;
 
@@ -45,10 +45,10 @@ pub struct Arguments {
     #[arg(long, value_name = "PATH[=FROM..TO]", help = const { words("fit", "free") })]
     free: Vec<String>,
     /// Multiples of the rotation speed at which peaks may be
-    #[arg(long, value_name = "ORDER", num_args = 1.., default_values_t = [1.0, 2.0], value_parser = number)]
+    #[arg(long, value_name = "ORDER", num_args = 1.., default_values_t = [1.0, 2.0], value_parser = share)]
     orders: Vec<f64>,
     /// Share of the deciding speed at which the saw may run
-    #[arg(long, value_name = "SHARE", default_value_t = 0.85, value_parser = number)]
+    #[arg(long, value_name = "SHARE", default_value_t = 0.85, value_parser = share)]
     margin: f64,
     /// Steps of the sampling, each with 48 saws
     #[arg(long, value_name = "COUNT", default_value_t = 200, value_parser = count::<usize>)]

@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use clap::Args;
 use serde_json::{Value, json};
 
-use super::common::{count, number, read_scene, say};
+use super::common::{count, hertz, read_scene, rpm, say};
 use super::output::OutputFolder;
 use super::python::Need;
 
@@ -14,7 +14,7 @@ Examples:
   sawflutter records tap.wav frf.uff --rpm 0     # taps at rest
   sawflutter records run-up.csv --saw my-saw.json
   sawflutter records run-up.wav --rpm 0..1400 --saw my-saw.json
-  sawflutter records probe.csv --tacho trigger --rate-hz 2000
+  sawflutter records probe.csv --tacho trigger --rate 2kHz
 
 Files: WAV, CSV (also .txt, .tsv, .dat), LabVIEW .lvm, universal files with data
 sets 58; records over time, or frequency responses. Columns and units are found
@@ -57,11 +57,11 @@ pub struct Arguments {
     #[arg(long, value_name = "NAME")]
     signal: Option<String>,
     /// Samples per second of a table without a column of time
-    #[arg(long, value_name = "HZ", allow_negative_numbers = true, value_parser = number)]
-    rate_hz: Option<f64>,
+    #[arg(long, value_name = "HZ", allow_negative_numbers = true, value_parser = hertz)]
+    rate: Option<f64>,
     /// Highest frequency of records over time [default: 500, at most 40 % of the sample rate]
-    #[arg(long, value_name = "HZ", allow_negative_numbers = true, value_parser = number)]
-    to_hz: Option<f64>,
+    #[arg(long, value_name = "HZ", allow_negative_numbers = true, value_parser = hertz)]
+    to_frequency: Option<f64>,
     /// Folder for the files [default: sawflutter-out]
     #[arg(
         long,
@@ -75,8 +75,8 @@ pub struct Arguments {
 /// Parses one speed, or two like `0..1400`.
 fn speeds(text: &str) -> Result<Value, String> {
     Ok(match text.split_once("..") {
-        Some((from, to)) => json!([number(from)?, number(to)?]),
-        None => json!(number(text)?),
+        Some((from, to)) => json!([rpm(from)?, rpm(to)?]),
+        None => json!(rpm(text)?),
     })
 }
 
@@ -93,8 +93,8 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<()> {
         "tacho": arguments.tacho,
         "pulses_per_turn": arguments.pulses_per_turn,
         "signal": arguments.signal,
-        "rate_hz": arguments.rate_hz,
-        "to_hz": arguments.to_hz,
+        "rate_hz": arguments.rate,
+        "to_hz": arguments.to_frequency,
         "out": folder.path(),
     });
     Ok(say(&NEED.answer(&[], &input.to_string())?)?)
