@@ -2674,6 +2674,25 @@ class Change(Entry):
 
 
 @dataclass(frozen=True, eq=False, repr=False, kw_only=True)
+class LoadedPad(Entry):
+    """A linear pad under the constant side force of the scene, at the rim at the cut.
+
+    Attributes
+    ----------
+    guide : Index of the guide.
+    rpm : Speed of the saw.
+    side_force_n : The side force.
+    force_n : Force of the blade on the pad: positive if the pad is pressed in the direction of
+        the side force.
+    """
+
+    guide: int
+    rpm: float
+    side_force_n: float
+    force_n: float
+
+
+@dataclass(frozen=True, eq=False, repr=False, kw_only=True)
 class ReportGapReport(Entry):
     """Report of a saw whose guides have a gap (gap.json).
 
@@ -2723,25 +2742,6 @@ class ReportGapReport(Entry):
 
 
 @dataclass(frozen=True, eq=False, repr=False, kw_only=True)
-class LoadedPad(Entry):
-    """A linear pad under the constant side force of the scene, at the rim at the cut.
-
-    Attributes
-    ----------
-    guide : Index of the guide.
-    rpm : Speed of the saw.
-    side_force_n : The side force.
-    force_n : Force of the blade on the pad: positive if the pad is pressed in the direction of
-        the side force.
-    """
-
-    guide: int
-    rpm: float
-    side_force_n: float
-    force_n: float
-
-
-@dataclass(frozen=True, eq=False, repr=False, kw_only=True)
 class DesignReport(Entry):
     """Report of a saw for a decision (design.json).
 
@@ -2762,10 +2762,10 @@ class DesignReport(Entry):
     speeds : First critical speed and flutter speed, idling and in the cut.
     raised : Speed that the changes raise.
     changes : The changes of one number that raise it most, the best first.
-    gap : Guides with a gap; null if no guide is one-sided.
-    warnings : Remarks on the validity of the result.
     pads : Linear pads under the side force at the cut at the operating speed; empty unless the
         saw is stable there.
+    gap : Guides with a gap; null if no guide is one-sided.
+    warnings : Remarks on the validity of the result.
     """
 
     sawflutter: str
@@ -2780,9 +2780,9 @@ class DesignReport(Entry):
     speeds: tuple[DecisiveSpeed, ...]
     raised: DecidedSpeed
     changes: tuple[Change, ...]
+    pads: tuple[LoadedPad, ...] = field(default=())
     gap: ReportGapReport | None
     warnings: tuple[str, ...]
-    pads: tuple[LoadedPad, ...] = field(default=())
 
 
 @dataclass(frozen=True, eq=False, repr=False, kw_only=True)

@@ -60,7 +60,7 @@ pub struct Arguments {
     #[arg(long)]
     vtk: bool,
     /// Also list the modes at this speed: frequency, direction, growth, damping, Krein sign
-    #[arg(long, value_name = "RPM", allow_negative_numbers = true, value_parser = common::rpm)]
+    #[arg(long, value_name = "RPM", allow_hyphen_values = true, value_parser = common::rpm)]
     rpm: Option<f64>,
     /// Chart the saw under the forces of its cut at this speed, beside the idling saw; by default
     /// the operating speed

@@ -26,28 +26,28 @@ Exit code: 0 every limit is kept, 1 one is not, 2 the input was refused.";
 pub struct Arguments {
     #[command(flatten)]
     input: Input,
-    #[arg(long, value_name = "RPM", allow_negative_numbers = true, value_parser = rpm,
+    #[arg(long, value_name = "RPM", allow_hyphen_values = true, value_parser = rpm,
         help = const { words("check", "operating_rpm") })]
     rpm: Option<f64>,
     #[arg(long,
         value_name = "SHARE",
         default_value_t = 0.85,
-        allow_negative_numbers = true, value_parser = share,
+        allow_hyphen_values = true, value_parser = share,
         help = const { words("check", "margin") })]
     margin: f64,
-    #[arg(long, value_name = "RPM", allow_negative_numbers = true, value_parser = rpm,
+    #[arg(long, value_name = "RPM", allow_hyphen_values = true, value_parser = rpm,
         help = const { words("check", "min_flutter_rpm") })]
     min_flutter: Option<f64>,
-    #[arg(long, value_name = "RPM", allow_negative_numbers = true, value_parser = rpm,
+    #[arg(long, value_name = "RPM", allow_hyphen_values = true, value_parser = rpm,
         help = const { words("check", "min_critical_rpm") })]
     min_critical: Option<f64>,
     #[arg(long,
         value_name = "M/S",
         default_value_t = RIM_LIMIT_M_PER_S,
-        allow_negative_numbers = true, value_parser = metres_per_second,
+        allow_hyphen_values = true, value_parser = metres_per_second,
         help = const { words("check", "max_rim_m_per_s") })]
     max_rim: f64,
-    #[arg(long, value_name = "LENGTH", allow_negative_numbers = true, value_parser = millimetres,
+    #[arg(long, value_name = "LENGTH", allow_hyphen_values = true, value_parser = millimetres,
         help = const { words("check", "max_amplitude_m") })]
     max_amplitude: Option<f64>,
     #[arg(long, help = const { words("check", "accept_unusual") })]

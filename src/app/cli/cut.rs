@@ -26,7 +26,7 @@ The forces are the scene's `cut`; `sawflutter schema` says what it may contain."
 pub struct Arguments {
     #[command(flatten)]
     common: Common,
-    #[arg(long, value_name = "RPM", allow_negative_numbers = true, value_parser = rpm,
+    #[arg(long, value_name = "RPM", allow_hyphen_values = true, value_parser = rpm,
         help = const { words("cut", "rpm") })]
     rpm: Vec<f64>,
     #[arg(long, help = const { words("cut", "stretching") })]

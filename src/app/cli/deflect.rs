@@ -28,7 +28,7 @@ pub struct Arguments {
     #[arg(long, value_name = "N", allow_hyphen_values = true,
         help = const { words("deflect", "force_n") })]
     force: Option<String>,
-    #[arg(long, value_name = "RPM", allow_negative_numbers = true, value_parser = rpm,
+    #[arg(long, value_name = "RPM", allow_hyphen_values = true, value_parser = rpm,
         help = const { words("deflect", "to_rpm") })]
     to: Option<f64>,
     #[command(flatten)]

@@ -36,13 +36,13 @@ pub struct Arguments {
     #[arg(long, value_name = "PATH[=FROM..TO]",
         help = const { words("fit", "free") })]
     free: Vec<String>,
-    #[arg(long, value_name = "RPM", allow_negative_numbers = true, value_parser = rpm,
+    #[arg(long, value_name = "RPM", allow_hyphen_values = true, value_parser = rpm,
         help = const { words("fit", "to_rpm") })]
     to: Option<f64>,
     #[arg(long,
         value_name = "SHARE",
         default_value_t = 0.95,
-        allow_negative_numbers = true, value_parser = share,
+        allow_hyphen_values = true, value_parser = share,
         help = const { words("fit", "confidence") })]
     confidence: f64,
     #[arg(long, value_name = "COUNT", default_value_t = 12, value_parser = count::<usize>,

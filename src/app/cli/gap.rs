@@ -31,13 +31,13 @@ pub struct Arguments {
     #[arg(long, value_name = "N", allow_hyphen_values = true,
         help = const { words("gap", "force_n") })]
     force: Option<String>,
-    #[arg(long, value_name = "LENGTH", allow_negative_numbers = true, value_parser = millimetres,
+    #[arg(long, value_name = "LENGTH", allow_hyphen_values = true, value_parser = millimetres,
         help = const { words("gap", "gap_m") })]
     gap: Option<f64>,
-    #[arg(long, value_name = "RPM", allow_negative_numbers = true, value_parser = rpm,
+    #[arg(long, value_name = "RPM", allow_hyphen_values = true, value_parser = rpm,
         help = const { words("gap", "rpm") })]
     rpm: Option<f64>,
-    #[arg(long, value_name = "LENGTH", allow_negative_numbers = true, value_parser = millimetres,
+    #[arg(long, value_name = "LENGTH", allow_hyphen_values = true, value_parser = millimetres,
         help = const { words("gap", "max_deviation_m") })]
     max_deviation: Option<f64>,
     #[arg(long, value_name = "N", allow_hyphen_values = true,
@@ -46,7 +46,7 @@ pub struct Arguments {
     #[arg(long, value_name = "K", allow_hyphen_values = true,
         help = const { words("gap", "oscillating_order") })]
     oscillating_order: Option<String>,
-    #[arg(long, value_name = "MU", allow_negative_numbers = true,
+    #[arg(long, value_name = "MU", allow_hyphen_values = true,
         help = const { words("gap", "friction") })]
     friction: Option<String>,
     #[command(flatten)]

@@ -42,10 +42,10 @@ pub struct Arguments {
     #[arg(long, value_name = "COUNT", value_parser = common::count::<usize>)]
     points: Option<usize>,
     /// Speed at which the saws are judged; by default the operating speed
-    #[arg(long, value_name = "RPM", allow_negative_numbers = true, value_parser = common::rpm)]
+    #[arg(long, value_name = "RPM", allow_hyphen_values = true, value_parser = common::rpm)]
     rpm: Option<f64>,
     /// Last speed; by default the end of the scene's sweep
-    #[arg(long, value_name = "RPM", allow_negative_numbers = true, value_parser = common::rpm)]
+    #[arg(long, value_name = "RPM", allow_hyphen_values = true, value_parser = common::rpm)]
     to: Option<f64>,
     #[command(flatten)]
     changes: Changes,

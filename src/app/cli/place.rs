@@ -38,13 +38,13 @@ pub struct Arguments {
     #[arg(long, value_name = "NAME", default_value = "flutter",
         help = const { words("place", "goal") })]
     goal: GoalName,
-    #[arg(long, value_name = "RPM", allow_negative_numbers = true, value_parser = rpm,
+    #[arg(long, value_name = "RPM", allow_hyphen_values = true, value_parser = rpm,
         help = const { words("place", "min_critical_rpm") })]
     min_critical: Option<f64>,
-    #[arg(long, value_name = "LENGTH", allow_negative_numbers = true, value_parser = millimetres,
+    #[arg(long, value_name = "LENGTH", allow_hyphen_values = true, value_parser = millimetres,
         help = const { words("place", "amplitude_m") })]
     amplitude: Option<f64>,
-    #[arg(long, value_name = "LENGTH", allow_negative_numbers = true, value_parser = millimetres,
+    #[arg(long, value_name = "LENGTH", allow_hyphen_values = true, value_parser = millimetres,
         help = const { words("place", "max_deviation_m") })]
     max_deviation: Option<f64>,
     #[arg(long,
@@ -59,16 +59,16 @@ pub struct Arguments {
     #[arg(long, value_name = "COUNT", default_value_t = 60, value_parser = count::<u64>,
         help = const { words("place", "refine") })]
     refine: u64,
-    #[arg(long, value_name = "LENGTH", default_value_t = Tolerances::USUAL.radius_m, allow_negative_numbers = true, value_parser = metres,
+    #[arg(long, value_name = "LENGTH", default_value_t = Tolerances::USUAL.radius_m, allow_hyphen_values = true, value_parser = metres,
         help = const { words("place", "radius_tolerance_m") })]
     radius_tolerance: f64,
-    #[arg(long, value_name = "DEG", default_value_t = Tolerances::USUAL.angle_deg, allow_negative_numbers = true, value_parser = degrees,
+    #[arg(long, value_name = "DEG", default_value_t = Tolerances::USUAL.angle_deg, allow_hyphen_values = true, value_parser = degrees,
         help = const { words("place", "angle_tolerance_deg") })]
     angle_tolerance: f64,
-    #[arg(long, value_name = "SHARE", default_value_t = Tolerances::USUAL.guide_share, allow_negative_numbers = true, value_parser = share,
+    #[arg(long, value_name = "SHARE", default_value_t = Tolerances::USUAL.guide_share, allow_hyphen_values = true, value_parser = share,
         help = const { words("place", "guide_tolerance_share") })]
     guide_tolerance: f64,
-    #[arg(long, value_name = "SHARE", default_value_t = Tolerances::USUAL.other_share, allow_negative_numbers = true, value_parser = share,
+    #[arg(long, value_name = "SHARE", default_value_t = Tolerances::USUAL.other_share, allow_hyphen_values = true, value_parser = share,
         help = const { words("place", "other_tolerance_share") })]
     other_tolerance: f64,
     #[arg(long, value_name = "COUNT", default_value_t = 17, value_parser = count::<usize>,

@@ -57,10 +57,10 @@ pub struct Arguments {
     #[arg(long, value_name = "NAME")]
     signal: Option<String>,
     /// Samples per second of a table without a column of time
-    #[arg(long, value_name = "HZ", allow_negative_numbers = true, value_parser = hertz)]
+    #[arg(long, value_name = "HZ", allow_hyphen_values = true, value_parser = hertz)]
     rate: Option<f64>,
     /// Highest frequency of records over time [default: 500, at most 40 % of the sample rate]
-    #[arg(long, value_name = "HZ", allow_negative_numbers = true, value_parser = hertz)]
+    #[arg(long, value_name = "HZ", allow_hyphen_values = true, value_parser = hertz)]
     to_frequency: Option<f64>,
     /// Folder for the files [default: sawflutter-out]
     #[arg(

@@ -23,10 +23,10 @@ imbalance_kg_m2 of the block `response`. Without any, the force is 1 N.";
 pub struct Arguments {
     #[command(flatten)]
     common: Common,
-    #[arg(long, value_name = "RPM", allow_negative_numbers = true, value_parser = rpm,
+    #[arg(long, value_name = "RPM", allow_hyphen_values = true, value_parser = rpm,
         help = const { words("response", "rpm") })]
     rpm: Option<f64>,
-    #[arg(long, value_name = "HZ", allow_negative_numbers = true, value_parser = hertz,
+    #[arg(long, value_name = "HZ", allow_hyphen_values = true, value_parser = hertz,
         help = const { words("response", "to_hz") })]
     to_frequency: Option<f64>,
     #[command(flatten)]

@@ -26,7 +26,7 @@ says what that may contain.";
 pub struct Arguments {
     #[command(flatten)]
     common: Common,
-    #[arg(long, value_name = "RPM", allow_negative_numbers = true, value_parser = rpm,
+    #[arg(long, value_name = "RPM", allow_hyphen_values = true, value_parser = rpm,
         help = const { words("washboard", "rpm") })]
     rpm: Option<f64>,
     #[command(flatten)]
