@@ -8,7 +8,7 @@ use super::charts::Charts;
 use super::refusal::Refusal;
 use crate::analyses::campbell::ModeShape;
 use crate::model::scene::rpm;
-use crate::modes::NamedMode;
+use crate::modes::{Mode, smallest};
 use crate::stability::Analysis;
 
 /// A request for a mode.
@@ -35,19 +35,15 @@ pub fn answer(charts: &Charts, asked: &str) -> Result<ModeShape, Refusal> {
     found.ok_or_else(|| Refusal::gone(asked.chart))
 }
 
-/// Finds the mode nearest to the requested frequency at the sampled speed nearest to the requested one.
+/// Computes the mode nearest to the requested frequency at the drawn speed nearest to the requested one.
 fn nearest(analysis: &Analysis, asked: &Asked) -> Option<ModeShape> {
     let samples = analysis.chart.campbell.samples.iter();
-    let samples = samples.filter(|sample| sample.is_solved());
-    let off = |value: f64, wanted: f64| (value - wanted).abs();
-    let sample = samples.min_by(|x, y| {
-        let of = |speed| off(rpm(speed), asked.rpm);
-        of(x.speed_rad_per_s).total_cmp(&of(y.speed_rad_per_s))
-    })?;
-    let of = |mode: &NamedMode| off(mode.mode.frequency_rad_per_s() / TAU, asked.frequency_hz);
-    let mode = sample.modes.iter().min_by(|x, y| of(x).total_cmp(&of(y)))?;
+    let speeds = samples.map(|sample| sample.speed_rad_per_s);
+    let speed = smallest(speeds, |speed| (rpm(*speed) - asked.rpm).abs())?;
     let model = &analysis.model;
-    let described = model.describe(sample.speed_rad_per_s, vec![mode.mode.clone()]);
-    let shape = |found| ModeShape::new(&model.plate, sample.speed_rad_per_s, found);
+    let off = |mode: &Mode| (mode.frequency_rad_per_s() / TAU - asked.frequency_hz).abs();
+    let mode = smallest(model.modes(speed).ok()?, off)?;
+    let described = model.describe(speed, vec![mode]);
+    let shape = |found| ModeShape::new(&model.plate, speed, found);
     described.first().map(shape)
 }
