@@ -87,6 +87,11 @@ pub fn is_seen(lambda: c64) -> bool {
 }
 
 impl Mode {
+    /// Whether the mode is that of an eigenproblem; an interpolated one has no coordinates.
+    pub(super) fn is_solved(&self) -> bool {
+        self.coordinates.nrows() > 0
+    }
+
     /// ω = |Im λ|, in rad/s.
     pub fn frequency_rad_per_s(&self) -> f64 {
         self.lambda.im.abs()

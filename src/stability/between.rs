@@ -2,7 +2,6 @@
 
 use rayon::prelude::*;
 
-use super::pieces::Piece;
 use crate::modes::branches::{self, CampbellError, ModesAt};
 use crate::modes::{Mode, SpectralModel};
 
@@ -35,13 +34,6 @@ impl Between<'_> {
             modes,
         }
     }
-}
-
-/// The settled one of ascending pieces that contains a speed.
-pub fn settled(pieces: &[Piece], speed_rad_per_s: f64) -> Option<&Piece> {
-    let ends_below = |piece: &Piece| piece.ends[1].speed_rad_per_s < speed_rad_per_s;
-    let piece = pieces.get(pieces.partition_point(ends_below))?;
-    (!piece.groups.is_empty() && piece.contains(speed_rad_per_s)).then_some(piece)
 }
 
 #[cfg(test)]

@@ -41,6 +41,13 @@ impl Piece {
         let [from, to] = self.ends.each_ref().map(|end| end.speed_rad_per_s);
         (from..=to).contains(&speed_rad_per_s)
     }
+
+    /// The settled one of ascending pieces that contains a speed.
+    pub fn settled(pieces: &[Piece], speed_rad_per_s: f64) -> Option<&Piece> {
+        let ends_below = |piece: &Piece| piece.ends[1].speed_rad_per_s < speed_rad_per_s;
+        let piece = pieces.get(pieces.partition_point(ends_below))?;
+        (!piece.groups.is_empty() && piece.contains(speed_rad_per_s)).then_some(piece)
+    }
 }
 
 /// Largest number of eigenvalues of a group in a wide piece.

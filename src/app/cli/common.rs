@@ -56,12 +56,19 @@ pub struct Common {
     pub output: Output,
 }
 
-/// Destination and form of the results.
+/// Destination of the results.
 #[derive(Args, Default)]
-pub struct Output {
+pub struct Folder {
     /// Folder for the files [default: sawflutter-out]
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
+}
+
+/// Destination and form of the results.
+#[derive(Args, Default)]
+pub struct Output {
+    #[command(flatten)]
+    folder: Folder,
     /// Print the report as JSON instead of the summary
     #[arg(long)]
     pub json: bool,
@@ -260,11 +267,18 @@ impl Common {
     }
 }
 
+impl Folder {
+    /// Opens the output folder, see [`OutputFolder::open`].
+    pub fn open(&self) -> anyhow::Result<OutputFolder> {
+        let path = self.out.as_deref();
+        OutputFolder::open(path.unwrap_or(Path::new("sawflutter-out")))
+    }
+}
+
 impl Output {
     /// Opens the output folder, see [`OutputFolder::open`].
     pub fn folder(&self) -> anyhow::Result<OutputFolder> {
-        let path = self.out.as_deref();
-        OutputFolder::open(path.unwrap_or(Path::new("sawflutter-out")))
+        self.folder.open()
     }
 
     /// The text of a report, with its details if asked for.

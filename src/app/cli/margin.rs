@@ -8,8 +8,7 @@ use serde_json::json;
 use crate::model::scene::Freed;
 
 use super::bounds::named_bounds;
-use super::common::{count, read_scene, say, share, words};
-use super::output::OutputFolder;
+use super::common::{Folder, count, read_scene, say, share, words};
 use super::python::Need;
 
 pub const EXAMPLES: &str = "\
@@ -53,14 +52,8 @@ pub struct Arguments {
     /// Steps of the sampling, each with 48 saws
     #[arg(long, value_name = "COUNT", default_value_t = 200, value_parser = count::<usize>)]
     steps: usize,
-    /// Folder for the files [default: sawflutter-out]
-    #[arg(
-        long,
-        value_name = "DIR",
-        default_value = "sawflutter-out",
-        hide_default_value = true
-    )]
-    out: PathBuf,
+    #[command(flatten)]
+    folder: Folder,
 }
 
 /// Samples the saws, writes the files and prints the text.
@@ -71,7 +64,7 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<()> {
         .iter()
         .map(|number| (number.parameter.path(), number.from, number.to))
         .collect();
-    let folder = OutputFolder::open(&arguments.out)?;
+    let folder = arguments.folder.open()?;
     let input = json!({
         "scene": scene.file(),
         "peaks": arguments.peaks,

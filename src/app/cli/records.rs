@@ -5,8 +5,7 @@ use std::path::PathBuf;
 use clap::Args;
 use serde_json::{Value, json};
 
-use super::common::{count, hertz, read_scene, rpm, say};
-use super::output::OutputFolder;
+use super::common::{Folder, count, hertz, read_scene, rpm, say};
 use super::python::Need;
 
 pub const EXAMPLES: &str = "\
@@ -62,14 +61,8 @@ pub struct Arguments {
     /// Highest frequency of records over time [default: 500, at most 40 % of the sample rate]
     #[arg(long, value_name = "HZ", allow_hyphen_values = true, value_parser = hertz)]
     to_frequency: Option<f64>,
-    /// Folder for the files [default: sawflutter-out]
-    #[arg(
-        long,
-        value_name = "DIR",
-        default_value = "sawflutter-out",
-        hide_default_value = true
-    )]
-    out: PathBuf,
+    #[command(flatten)]
+    folder: Folder,
 }
 
 /// Parses one speed, or two like `0..1400`.
@@ -83,7 +76,7 @@ fn speeds(text: &str) -> Result<Value, String> {
 /// Reads the records, writes the files and prints the text.
 pub fn run(arguments: &Arguments) -> anyhow::Result<()> {
     let saw = arguments.saw.as_deref().map(read_scene).transpose()?;
-    let folder = OutputFolder::open(&arguments.out)?;
+    let folder = arguments.folder.open()?;
     let input = json!({
         "files": arguments.files,
         "saw": saw.as_ref().map(|saw| saw.file()),

@@ -14,8 +14,7 @@ pub struct ModesAt {
 impl ModesAt {
     /// Whether the eigenproblem of the speed was solved.
     pub(crate) fn is_solved(&self) -> bool {
-        let mut modes = self.modes.iter();
-        modes.all(|mode| mode.coordinates.nrows() > 0)
+        self.modes.iter().all(Mode::is_solved)
     }
 
     pub(super) fn named(&self, model: &SpectralModel) -> SpeedSample {
@@ -38,8 +37,7 @@ pub struct SpeedSample {
 impl SpeedSample {
     /// Whether the eigenproblem of the speed was solved.
     pub fn is_solved(&self) -> bool {
-        let mut modes = self.modes.iter();
-        modes.all(|named| named.mode.coordinates.nrows() > 0)
+        self.modes.iter().all(|named| named.mode.is_solved())
     }
 }
 

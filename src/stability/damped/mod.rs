@@ -14,7 +14,7 @@ mod spectrum;
 use rayon::prelude::*;
 
 use super::band::{CurvePoint, Instability};
-use super::between::{Between, settled};
+use super::between::Between;
 use super::certificate::Certificate;
 use super::detail::Detail;
 use super::diagram::{DrawnSpeeds, drawn};
@@ -179,7 +179,7 @@ fn modes_of_part(
     pieces: &[Piece],
     speed: f64,
 ) -> Option<Vec<Mode>> {
-    let groups = settled(pieces, speed)?.groups.iter();
+    let groups = Piece::settled(pieces, speed)?.groups.iter();
     let numbers: Vec<Sloped> = groups
         .flat_map(|grouped| grouped.group.sloped_at(speed))
         .collect();

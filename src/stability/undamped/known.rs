@@ -6,7 +6,6 @@ use faer::{Col, c64};
 
 use crate::modes::branches::ModesAt;
 use crate::modes::{Mode, ModeKind, SpectralModel, smallest};
-use crate::stability::between::settled;
 use crate::stability::group::Sloped;
 use crate::stability::pieces::{Grouped, Piece};
 use crate::stability::sample::squared;
@@ -30,7 +29,7 @@ impl<'a> Known<'a> {
 
     /// Modes at a speed; `None` if no piece shows them.
     pub fn modes_at(&self, speed_rad_per_s: f64) -> Option<Vec<Mode>> {
-        let piece = settled(self.pieces, speed_rad_per_s)?;
+        let piece = Piece::settled(self.pieces, speed_rad_per_s)?;
         let mut modes = Vec::new();
         for grouped in &piece.groups {
             let component = self.component(piece, grouped)?;

@@ -84,10 +84,7 @@ impl Proof<'_> {
 
     /// Sample for proposals, neither counted nor checked: from the pieces of the search if they show it.
     fn guess_at(&self, speed: f64) -> Result<Sample, SpectrumError> {
-        let after = self
-            .pieces
-            .partition_point(|piece| piece.ends[1].speed_rad_per_s < speed);
-        let piece = self.pieces.get(after).filter(|piece| piece.contains(speed));
+        let piece = Piece::settled(self.pieces, speed);
         match piece.and_then(|piece| piece.sample_at(speed)) {
             Some(sample) => Ok(sample),
             None => self.checked.guess_at(speed),
