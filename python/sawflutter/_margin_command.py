@@ -18,6 +18,7 @@ from typing import Any
 
 import numpy as np
 
+from . import _native
 from ._command import answered, in_options, png, wrapped
 from .errors import ArgumentError, InputError
 from .margins import MeasuredMargin, measured_margin
@@ -52,21 +53,22 @@ def run(given: dict[str, Any]) -> str:
 def _peaks(path: str) -> tuple[list[float], list[float]]:
     """Speed and frequency of each peak of a table: of frequencies one in a line, or several."""
     speeds, found = list[float](), list[float]()
-    with open(path, newline="", encoding="utf-8-sig") as file:
-        rows = csv.DictReader(file)
-        names = [name for name in rows.fieldnames or () if re.fullmatch(r"frequency_hz|f\d+", name)]
-        if "rpm" not in (rows.fieldnames or ()) or not names:
-            titles = ", ".join(rows.fieldnames or ()) or "no line of titles"
-            raise InputError(f"{path} has {titles}, but must have the columns rpm and frequency_hz; name them so")
-        for row in rows:
-            for name in names:
-                if row[name]:
-                    try:
-                        pair = float(row["rpm"]), float(row[name])
-                    except ValueError:
-                        raise InputError(f"line {rows.line_num} of {path} has no number in rpm or {name}; correct it") from None
-                    speeds.append(pair[0])
-                    found.append(pair[1])
+    rows = csv.DictReader(_native.read_text(path, True).splitlines())
+    titles = rows.fieldnames or ()
+    names = [name for name in titles if re.fullmatch(r"frequency_hz|f\d+", name)]
+    if "rpm" not in titles or not names:
+        listed = ", ".join(titles) or "no line of titles"
+        raise InputError(f"{path} has {listed}, but must have the columns rpm and frequency_hz; name them so")
+    for row in rows:
+        for name in names:
+            if row[name]:
+                try:
+                    # A line that is too short has no speed.
+                    pair = float(row["rpm"] or ""), float(row[name])
+                except ValueError:
+                    raise InputError(f"line {rows.line_num} of {path} has no number in rpm or {name}; correct it") from None
+                speeds.append(pair[0])
+                found.append(pair[1])
     return speeds, found
 
 

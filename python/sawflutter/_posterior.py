@@ -5,11 +5,11 @@ from __future__ import annotations
 import numpy as np
 
 from ._entry import FloatArray
-from ._reduced import Reduced
+from ._reduced import BRANCHES, Reduced
 from .errors import refused
 
-# Number of lowest frequencies that peaks may belong to, and largest number of speeds.
-BRANCHES, _SPEEDS = 8, 12
+# Largest number of speeds.
+_SPEEDS = 12
 # Probabilities, before it is seen, that a peak is of a mode, at a multiple of the speed, or of nothing.
 _OF_MODE, _OF_ORDER, _OF_NOTHING = 0.6, 0.2, 0.2
 # Bounds of the standard deviation of the peaks in Hz; it is no smaller than the error of the small matrices.
@@ -29,7 +29,7 @@ class Measured:
         if len(self.rpm) > _SPEEDS:
             self.rpm = self.rpm[np.unique(np.linspace(0, len(self.rpm) - 1, _SPEEDS).round().astype(int))]
         middle = self.numbers(np.full((1, len(bounds) + 1), 0.5))
-        top_hz = float(reduced.frequencies_hz(middle, self.rpm, BRANCHES)[0, :, -1].min())
+        top_hz = float(reduced.frequencies_hz(middle, self.rpm)[0, :, -1].min())
         used = np.isin(rpm, self.rpm) & (hz < top_hz)
         if used.sum() <= len(bounds):
             allowed = f"more than {len(bounds)} below {top_hz:.0f} Hz, the highest frequency that is computed"
@@ -68,7 +68,7 @@ class Measured:
     def _parts(self, places: FloatArray) -> FloatArray:
         """Densities of each peak: of nothing, at a multiple, of each frequency."""
         deviation = self.deviation_hz(places)[:, None, None]
-        computed = self._reduced.frequencies_hz(self.numbers(places), self.rpm, BRANCHES)[:, self.speed]
+        computed = self._reduced.frequencies_hz(self.numbers(places), self.rpm)[:, self.speed]
         lines = self._orders * self.rpm[self.speed, None] / 60.0
 
         def density(of: FloatArray) -> FloatArray:

@@ -19,8 +19,8 @@ _SAMPLED, _COMPARED = 32, 6
 _HIGHEST, _MISSED = 36, 1e-4
 # Largest number of saws at whose matrices the others are interpolated.
 _MOST = 3000
-# Number of frequencies that are compared.
-_FREQUENCIES = 8
+# Number of lowest frequencies that are computed.
+BRANCHES = 8
 
 
 class Reduced:
@@ -77,11 +77,11 @@ class Reduced:
         ]
         self.error_hz = float(np.max(differences))
 
-    def frequencies_hz(self, numbers: FloatArray, rpm: FloatArray, count: int) -> FloatArray:
-        """The lowest frequencies in space, of the shape (saws, speeds, count); inf where there are
+    def frequencies_hz(self, numbers: FloatArray, rpm: FloatArray) -> FloatArray:
+        """The lowest frequencies in space, of the shape (saws, speeds, BRANCHES); inf where there are
         fewer. Numbers have a row for each saw."""
         places = 2.0 * (numbers - self._low) / (self._high - self._low) - 1.0
-        return _frequencies_hz(self._at(places), rpm, count)
+        return _frequencies_hz(self._at(places), rpm)
 
     def _at(self, places: FloatArray) -> FloatArray:
         """The small matrices at places from -1 to 1 between the bounds."""
@@ -115,7 +115,7 @@ class Reduced:
         none = np.zeros_like(np.asarray(full[0]))
         rpm = np.array([0.0, top_rpm])
         exact, small = (
-            _frequencies_hz(of, rpm, _FREQUENCIES)
+            _frequencies_hz(of, rpm)
             for of in (np.array([[none if of is None else of for of in full]]), self._at(place[None]))
         )
         known = np.isfinite(exact) & np.isfinite(small)
@@ -133,7 +133,7 @@ def _lowest(matrices: list[FloatArray | None], speed: float) -> FloatArray:
     return np.asarray(modes[:, :_MODES])
 
 
-def _frequencies_hz(matrices: FloatArray, rpm: FloatArray, count: int) -> FloatArray:
+def _frequencies_hz(matrices: FloatArray, rpm: FloatArray) -> FloatArray:
     """Frequencies of matrices of the shape (saws, 5, n, n)."""
     speed = (rpm * np.pi / 30.0)[None, :, None, None]
     stiffness, spin, gyroscopic, damping, circulatory = np.moveaxis(matrices, 1, 0)[:, :, None]
@@ -144,4 +144,4 @@ def _frequencies_hz(matrices: FloatArray, rpm: FloatArray, count: int) -> FloatA
     state[..., size:, size:] = -(2.0 * speed * gyroscopic + damping)
     roots: ComplexArray = np.linalg.eigvals(state).astype(complex)
     hz = np.where(roots.imag > 1e-6, roots.imag / (2.0 * np.pi), np.inf)
-    return np.asarray(np.sort(hz, axis=-1)[..., :count])
+    return np.asarray(np.sort(hz, axis=-1)[..., :BRANCHES])

@@ -11,7 +11,7 @@ import numpy.typing as npt
 from ._drawn import Drawn
 from ._entry import Entry, FloatArray, array
 from ._extras import extra
-from ._posterior import BRANCHES, Measured, most_telling
+from ._posterior import Measured, most_telling
 from ._reduced import Reduced
 from ._values import Number, number
 from .errors import refused
@@ -239,7 +239,7 @@ def measured_margin(
     )
     mode, probability = measured.most_likely(drawn)
     at_rpm = np.linspace(0.0, max(top, 1.0), 4 * _TRIED - 3)
-    computed = reduced.frequencies_hz(numbers, at_rpm, BRANCHES)
+    computed = reduced.frequencies_hz(numbers, at_rpm)
     deviation = measured.deviation_hz(drawn)
     tried = (at_rpm[::4], computed[:, ::4], _deciding(critical, flutter, to_rpm), float(np.median(deviation)))
     next_rpm, next_hz, place, next_share = most_telling(*tried)

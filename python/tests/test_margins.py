@@ -93,7 +93,7 @@ def test_small_matrices_have_the_frequencies_of_the_full_ones(saw: sf.Scene) -> 
     reduced = Reduced(saw, bounds, 1200.0, lambda done, of: None)
     numbers = np.array(list(TRUTH.values()))
     rpm = np.array([0.0, 600.0, 1200.0])
-    small = reduced.frequencies_hz(numbers[None], rpm, 5)[0]
+    small = reduced.frequencies_hz(numbers[None], rpm)[0, :, :5]
     full = saw.replace(TRUTH).modes(rpm.tolist()).frequency_hz[:, :5]
     assert np.abs(small - full).max() < 0.05
     assert reduced.error_hz < 0.2
@@ -155,6 +155,8 @@ def test_the_command_writes_saws_modes_and_a_figure(
     [
         ("speed;f\n1;2\n", (), "must have the columns rpm and frequency_hz"),
         ("rpm,frequency_hz\n100,fast\n", (), "line 2 of .* has no number"),
+        ("frequency_hz,rpm\n7.5,100\n8.5\n", (), "line 3 of .* has no number"),
+        ("\0\x01rpm", (), "is not text"),
         ("rpm,frequency_hz\n100,7.5\n", (), "the peaks of .* must be more than 2"),
         ("rpm,frequency_hz\n100,7.5\n", ("--margin", "2"), "--margin must be above 0 and at most 1"),
     ],
