@@ -5,6 +5,7 @@ use faer::c64;
 use super::band::Instability;
 use super::basis::{ChosenBasis, FALL};
 use super::basis_limit::OutOfReach;
+use super::between::Between;
 use super::chart::{CHART_SPEEDS, drawn};
 use super::detail::Detail;
 use super::error::AnalysisError;
@@ -36,12 +37,12 @@ const FREE_CHART_SPEEDS: usize = 101;
 /// Number of even speeds in the sketch of a guided blade.
 const SKETCH_SPEEDS: usize = 25;
 
-fn charted(
-    model: &SpectralModel,
+fn charted<'a>(
+    model: &'a SpectralModel,
     range: SpeedRange,
     depth: Depth,
     options: AnalysisOptions<'_>,
-) -> Result<StabilityChart, AnalysisError> {
+) -> Result<(StabilityChart, Between<'a>), AnalysisError> {
     let full = AnalysisOptions {
         detail: Detail::Full,
         ..options
@@ -55,17 +56,23 @@ fn charted(
 
 /// Root loci of the flutter band that begins at a speed; `None` with damping, where no pair coalesces.
 fn root_loci(
-    model: &SpectralModel,
+    between: &Between<'_>,
     chart: &StabilityChart,
     onset_rad_per_s: f64,
     range_rad_per_s: SpeedRange,
-) -> Option<RootLoci> {
+) -> Result<Option<RootLoci>, AnalysisError> {
     let begins = |band: &&Instability| {
         band.kind == InstabilityKind::Flutter && band.from_rad_per_s == onset_rad_per_s
     };
-    let band = chart.instabilities.iter().find(begins)?;
-    let is_paired = model.is_conservative();
-    is_paired.then(|| RootLoci::new(&chart.campbell, band, range_rad_per_s))?
+    match chart.instabilities.iter().find(begins) {
+        Some(band) if between.model.is_conservative() => Ok(RootLoci::new(
+            between,
+            &chart.campbell,
+            band,
+            range_rad_per_s,
+        )?),
+        _ => Ok(None),
+    }
 }
 
 /// Stability of one saw: critical speeds, bands, estimated errors and certificate.
@@ -187,7 +194,7 @@ impl Analysis {
         options.report(&critical, range, None);
         let model = SpectralModel::with_critical(saw, critical, range, Strategy::Reduced)?;
         let depth = Depth::of(scene.accuracy());
-        let mut chart = charted(&model, range, depth, options)?;
+        let (mut chart, between) = charted(&model, range, depth, options)?;
         let (overdamped, modes_at_rest): (Vec<_>, Vec<_>) = model
             .describe(0.0, model.modes(0.0)?)
             .into_iter()
@@ -206,7 +213,11 @@ impl Analysis {
         let drawn_onset = flutter_speed
             .or(first_merge)
             .filter(|_| detail == Detail::Full);
-        let root_loci = drawn_onset.and_then(|onset| root_loci(&model, &chart, onset, range));
+        let root_loci = match drawn_onset {
+            Some(onset) => root_loci(&between, &chart, onset, range)?,
+            None => None,
+        };
+        drop(between);
         let heat = HeatLimits::new(scene, &model)?;
         let crossings = crossings(&model, &chart, scene.excitation())?;
         let idling = match scene.cut().and_then(|cut| cut.chart) {

@@ -1,5 +1,6 @@
 //! Stability chart of a saw: samples, branches and bands over a range of speeds.
 
+use super::between::Between;
 use super::certificate::{GROWTH_FLOOR, contradictions};
 use super::damped;
 use super::error::AnalysisError;
@@ -63,17 +64,17 @@ pub(crate) fn chart_to_depth(
         progress,
         ..AnalysisOptions::default()
     };
-    drawn(model, range, count, depth, options)
+    Ok(drawn(model, range, count, depth, options)?.0)
 }
 
-/// Charts a range of speeds with the detail and the callbacks of options.
-pub(super) fn drawn(
-    model: &SpectralModel,
+/// Charts a range of speeds with the detail and the callbacks of options, and returns the modes between, too.
+pub(super) fn drawn<'a>(
+    model: &'a SpectralModel,
     range: SpeedRange,
     count: usize,
     depth: Depth,
     options: AnalysisOptions<'_>,
-) -> Result<StabilityChart, AnalysisError> {
+) -> Result<(StabilityChart, Between<'a>), AnalysisError> {
     if model.is_conservative() {
         undamped::charted(model, range, count, depth, options)
     } else {

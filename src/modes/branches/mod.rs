@@ -196,7 +196,7 @@ impl Campbell {
 }
 
 /// Branches of the modes of samples at ascending speeds.
-fn followed(samples: &[ModesAt], height_rad_per_s: f64) -> Vec<Branch> {
+pub(crate) fn followed(samples: &[ModesAt], height_rad_per_s: f64) -> Vec<Branch> {
     let links: Vec<Vec<Option<usize>>> = samples
         .par_windows(2)
         .map(|pair| {

@@ -40,13 +40,13 @@ const DRAWN: Tuned = Tuned::new("stability/damped::DRAWN", 0.02);
 /// Subdivisions of a cubic between two points of a curve for the comparison with straight lines.
 const PARTS: u32 = 4;
 
-/// Finds the bands with their checks, and draws them with the modes between.
-pub(super) fn charted(
-    model: &SpectralModel,
+/// Finds the bands with their checks, and draws them with the modes between, which are returned, too.
+pub(super) fn charted<'a>(
+    model: &'a SpectralModel,
     range: SpeedRange,
     count: usize,
     options: AnalysisOptions<'_>,
-) -> Result<StabilityChart, AnalysisError> {
+) -> Result<(StabilityChart, Between<'a>), AnalysisError> {
     let speeds = DrawnSpeeds::new(model, clear_range(&model.critical, range), count);
     branches::check_room(model, &speeds.all)?;
     let (found, between, seen) = searched_bands(model, range, options.detail)?;
@@ -55,7 +55,8 @@ pub(super) fn charted(
     let bands = found.instabilities.iter();
     let beside: Vec<f64> = bands.flat_map(|band| drawn_speeds(band, share)).collect();
     let seen = speeds.thinned(seen);
-    drawn(&between, &speeds, seen, &beside, found, options)
+    let chart = drawn(&between, &speeds, seen, &beside, found, options)?;
+    Ok((chart, between))
 }
 
 /// Number of even speeds at the start of the search.

@@ -30,17 +30,20 @@ pub fn growing(
         .collect::<Result<_, _>>()?;
     let all = confirmed.into_iter().flatten();
     let (flutter, divergence) = all.partition(|stretch| stretch.kind == InstabilityKind::Flutter);
-    Ok([flutter, united(divergence)].concat())
+    Ok([flutter, united(checked, divergence)?].concat())
 }
 
-/// Intervals that do not overlap, each with the largest of the numbers at every speed.
-fn united(mut stretches: Vec<GrowingStretch>) -> Vec<GrowingStretch> {
+/// Intervals that do not touch, each with the largest of the numbers at every speed.
+fn united(
+    checked: &CheckedModes<'_>,
+    mut stretches: Vec<GrowingStretch>,
+) -> Result<Vec<GrowingStretch>, SpectrumError> {
     stretches.sort_by(|x, y| x.ends[0].speed().total_cmp(&y.ends[0].speed()));
     let mut united: Vec<GrowingStretch> = Vec::new();
     for stretch in stretches {
         let [begin, end] = stretch.ends;
         match united.last_mut() {
-            Some(last) if begin.speed() < last.ends[1].speed() => {
+            Some(last) if touch(checked, [last.ends[1], begin])? => {
                 if end.speed() > last.ends[1].speed() {
                     last.ends[1] = end;
                 }
@@ -56,7 +59,21 @@ fn united(mut stretches: Vec<GrowingStretch>) -> Vec<GrowingStretch> {
         });
         stretch.points.dedup_by_key(|point| point.speed_rad_per_s);
     }
-    united
+    Ok(united)
+}
+
+/// Whether no speed between the end of one interval of divergence and the begin of the next is free of real λ > 0. Two λ² above zero
+/// that cross, without a quadruple, may seem to coalesce there and to split again.
+fn touch(checked: &CheckedModes<'_>, [end, begin]: [End; 2]) -> Result<bool, SpectrumError> {
+    let [from, to] = [end, begin].map(|end| end.speed());
+    if to < from {
+        return Ok(true);
+    }
+    if !matches!([end, begin], [End::Coalescence(_), End::Coalescence(_)]) {
+        return Ok(false);
+    }
+    let between = checked.guess_at(0.5 * (from + to))?;
+    Ok(between.divergences().next().is_some())
 }
 
 /// An interval with both ends; `None` if no eigenproblem confirms it.
@@ -152,4 +169,43 @@ fn end(checked: &CheckedModes<'_>, stretch: &Stretch<'_>, bound: Bound, point: C
         }
         None => CurvePoint::new(expected, (c64::from(square), UNKNOWN)),
     })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::model::scene::{Accuracy, Scene, SpeedRange, rad_per_s, rpm};
+    use crate::modes::companion_eigenpairs;
+    use crate::stability::{Analysis, Onsets};
+
+    /// Two opposed pads leave the waves of even and odd n uncoupled: a growing real λ of one family crosses that of the other near
+    /// 2106 and 3003 rpm. Reference: dense eigenvalues.
+    #[test]
+    #[cfg_attr(debug_assertions, ignore = "dense solves: run it in release")]
+    fn divergence_goes_on_where_two_uncoupled_real_eigenvalues_cross() {
+        let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/scenes/gallery");
+        let scene = Scene::from_path(format!("{folder}/opposed-pads.json")).unwrap();
+        let draft = scene.edited(|saw| saw.accuracy = Accuracy::Draft).unwrap();
+        let swept = |to: f64| draft.swept(SpeedRange::between_rpm(0.0, to)).unwrap();
+        let model = &Analysis::new(&swept(3100.0)).unwrap().model;
+        let real = |speed: f64| {
+            let dense = companion_eigenpairs(&model.components[0].full, rad_per_s(speed)).unwrap();
+            let is_real = |lambda: &c64| lambda.im.abs() < 1e-6 && lambda.re > 1e-2;
+            dense.iter().filter(|(lambda, _)| is_real(lambda)).count()
+        };
+        let speeds = [2000.5, 2048.0, 2049.0, 2106.4066, 2128.0, 2139.8, 3003.1866];
+        assert_eq!(speeds.map(real), [0, 1, 2, 2, 1, 0, 2]);
+        for to in [3050.0, 3100.0, 3200.0, 4100.0] {
+            let found = Onsets::new(&swept(to)).unwrap();
+            let bands = found.instabilities.iter();
+            let divergence = bands.filter(|band| band.kind == InstabilityKind::Divergence);
+            let ends: Vec<f64> = divergence.flat_map(|band| band.range().ends()).collect();
+            for (end, expected) in ends
+                .iter()
+                .zip([2000.9647, 2139.4840, 2801.8643, 3016.9622])
+            {
+                assert!((rpm(*end) - expected).abs() < 1e-3, "{to}: {}", rpm(*end));
+            }
+        }
+    }
 }

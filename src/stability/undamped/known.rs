@@ -12,24 +12,16 @@ use crate::stability::sample::squared;
 
 /// Pieces of a search and the modes at its speeds.
 pub struct Known<'a> {
-    model: &'a SpectralModel,
-    pieces: &'a [Piece],
+    pub model: &'a SpectralModel,
+    pub pieces: Vec<Piece>,
     /// Modes by ascending speed.
-    solved: &'a [ModesAt],
+    pub solved: Vec<ModesAt>,
 }
 
-impl<'a> Known<'a> {
-    pub fn new(model: &'a SpectralModel, pieces: &'a [Piece], solved: &'a [ModesAt]) -> Self {
-        Known {
-            model,
-            pieces,
-            solved,
-        }
-    }
-
+impl Known<'_> {
     /// Modes at a speed; `None` if no piece shows them.
     pub fn modes_at(&self, speed_rad_per_s: f64) -> Option<Vec<Mode>> {
-        let piece = Piece::settled(self.pieces, speed_rad_per_s)?;
+        let piece = Piece::settled(&self.pieces, speed_rad_per_s)?;
         let mut modes = Vec::new();
         for grouped in &piece.groups {
             let component = self.component(piece, grouped)?;

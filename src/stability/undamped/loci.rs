@@ -1,19 +1,13 @@
-//! The two eigenvalues of a flutter band over the speed, read off the branches of a chart.
-//!
-//! The mean M of both λ² and the square D of half their difference are smooth through the edges of the band,
-//!
-//! λ²₁,₂ = M ± √D,  D < 0 within the band,
-//!
-//! so that cubics by values and slopes at the speeds of the chart give both eigenvalues at any speed.
+//! The two eigenvalues of a flutter band over the speed, read off the search for the band.
 
 use faer::c64;
+use rayon::prelude::*;
 
 use crate::model::scene::SpeedRange;
-use crate::modes::branches::{Branch, Campbell, SpeedSample};
-use crate::modes::{Mode, ModeKind, NamedMode, smallest};
+use crate::modes::branches::{self, Branch, Campbell, CampbellError};
+use crate::modes::{Mode, ModeKind, SpectralModel, smallest};
 use crate::stability::band::Instability;
-use crate::stability::interpolation::Cubic;
-use crate::stability::sample::squared;
+use crate::stability::between::Between;
 
 /// Paths of two eigenvalues over speed.
 #[derive(Debug, Clone, PartialEq)]
@@ -29,31 +23,55 @@ pub struct RootLoci {
 const SPEEDS: usize = 20;
 
 impl RootLoci {
-    /// The pair of a band from its peak to one width below and above the band, within a range, or
-    /// until one of the two coalesces with another mode. `None` if the chart has no such pair at the peak.
-    pub fn new(campbell: &Campbell, band: &Instability, range: SpeedRange) -> Option<Self> {
-        let width = band.range().width();
-        let wide = SpeedRange::new(band.from_rad_per_s - width, band.to_rad_per_s + width);
-        let wide = wide.within(range);
-        let nodes = nodes(campbell, band, wide)?;
-        let known = SpeedRange::new(nodes.first()?.speed, nodes.last()?.speed);
-        let [first, last] = known.within(wide).ends();
-        let peak = band.peak_rad_per_s;
-        let [from, to] = band.range().within(known).ends();
-        let mut speeds: Vec<f64> = [(first, from), (from, peak), (peak, to), (to, last)]
-            .into_iter()
-            .flat_map(|(from, to)| denser_at_ends(from, to))
-            .chain([first, peak, last])
-            .collect();
-        speeds.sort_by(f64::total_cmp);
-        speeds.dedup();
-        let at = |speed: f64| value(&nodes, speed, band.range().contains(speed));
-        let rows: Vec<[(c64, i8); 2]> = speeds.iter().map(|speed| at(*speed)).collect();
-        Some(RootLoci {
-            paths: [0, 1].map(|k| rows.iter().map(|row| row[k]).collect()),
-            speeds,
-        })
+    /// The pair of a band from its peak to one width below and above the band, within a range, as far as a chart
+    /// shows it. `None` if it does not show the pair at the peak.
+    ///
+    /// # Errors
+    /// [`CampbellError`] when an eigenproblem fails.
+    pub fn new(
+        between: &Between<'_>,
+        campbell: &Campbell,
+        band: &Instability,
+        range: SpeedRange,
+    ) -> Result<Option<Self>, CampbellError> {
+        let charted = campbell.samples.iter().map(|at| {
+            let modes = at.modes.iter().map(|named| &named.mode);
+            (at.speed_rad_per_s, modes.collect())
+        });
+        let charted = pair(&charted.collect::<Vec<_>>(), &campbell.branches, band);
+        let Some([from, .., to]) = charted.as_deref() else {
+            return Ok(None);
+        };
+        let shown = SpeedRange::new(from.speed_rad_per_s, to.speed_rad_per_s).within(range);
+        let samples = between.at_all(&speeds(band, shown))?;
+        let branches = branches::followed(&samples, between.model.complete_to_rad_per_s);
+        let all = samples
+            .iter()
+            .map(|at| (at.speed_rad_per_s, at.modes.iter().collect()));
+        let points = pair(&all.collect::<Vec<_>>(), &branches, band);
+        let points = points.map(|points| refined(between.model, points));
+        Ok(points.map(|points| RootLoci {
+            speeds: points.iter().map(|point| point.speed_rad_per_s).collect(),
+            paths: [0, 1].map(|k| points.iter().map(|point| point.pair[k]).collect()),
+        }))
     }
+}
+
+/// Ascending speeds of the loci of a band that are known over a range.
+fn speeds(band: &Instability, known: SpeedRange) -> Vec<f64> {
+    let width = band.range().width();
+    let wide = SpeedRange::new(band.from_rad_per_s - width, band.to_rad_per_s + width);
+    let [first, last] = wide.within(known).ends();
+    let [from, to] = band.range().within(known).ends();
+    let peak = band.peak_rad_per_s;
+    let parts = [(first, from), (from, peak), (peak, to), (to, last)];
+    let inner = parts
+        .into_iter()
+        .flat_map(|(from, to)| denser_at_ends(from, to));
+    let mut speeds: Vec<f64> = inner.chain([first, peak, last]).collect();
+    speeds.sort_by(f64::total_cmp);
+    speeds.dedup();
+    speeds
 }
 
 /// Speeds strictly between two others, denser near both, where paths turn; none if the second is not the larger one.
@@ -65,114 +83,92 @@ fn denser_at_ends(from: f64, to: f64) -> impl Iterator<Item = f64> {
     })
 }
 
-/// A pair at a speed of the chart.
-#[derive(Debug, Clone, Copy)]
-struct Node {
-    speed: f64,
-    /// M and its slope.
-    mean: [f64; 2],
-    /// D and its slope.
-    square: [f64; 2],
-    /// Whether the two are waves, and the first has the larger λ².
-    is_first_larger: bool,
+/// λ and Krein sign of both modes at a speed.
+struct Point {
+    speed_rad_per_s: f64,
+    pair: [(c64, i8); 2],
 }
 
-impl Node {
-    /// The pair of two modes that have coalesced, or of two waves of opposite sign, those of sign + first.
-    fn new(speed: f64, modes: [&Mode; 2]) -> Option<Self> {
-        use ModeKind::{Decaying, Flutter, Negative, Positive};
-        let kinds = modes.map(|mode| mode.kind);
-        if !matches!(kinds, [Flutter, Decaying] | [Positive, Negative]) {
-            return None;
-        }
-        let [first, second] = modes.map(|mode| squared((mode.lambda, mode.slope)));
-        let [mean, half] = [
-            (first.0 + second.0, first.1 + second.1),
-            (first.0 - second.0, first.1 - second.1),
-        ]
-        .map(|(number, slope)| (0.5 * number, 0.5 * slope));
-        Some(Node {
-            speed,
-            mean: [mean.0.re, mean.1.re],
-            square: [(half.0 * half.0).re, (2.0 * half.0 * half.1).re],
-            is_first_larger: kinds[0] == Positive && half.0.re > 0.0,
-        })
-    }
-}
-
-/// The pair of a band at the speeds of a chart within a range and next to it, ascending.
-fn nodes(campbell: &Campbell, band: &Instability, range: SpeedRange) -> Option<Vec<Node>> {
-    let samples = &campbell.samples;
-    let is_peak = |sample: &SpeedSample| sample.speed_rad_per_s == band.peak_rad_per_s;
-    let peak = samples.iter().position(is_peak)?;
+/// The two branches of a band from its peak on as far as they are waves of opposite sign beside it and grow and decay within
+/// it. `samples` are speeds and modes.
+fn pair(
+    samples: &[(f64, Vec<&Mode>)],
+    branches: &[Branch],
+    band: &Instability,
+) -> Option<Vec<Point>> {
+    let peak = samples
+        .iter()
+        .position(|(speed, _)| *speed == band.peak_rad_per_s)?;
     let growing = c64::new(band.peak_growth_per_s, band.frequency_rad_per_s);
-    let branch = |kind: ModeKind, lambda: c64| -> Option<&Branch> {
-        let modes = samples[peak].modes.iter().enumerate();
-        let of_kind = modes.filter(|(_, named)| named.mode.kind == kind);
-        let off = |(_, named): &(usize, &NamedMode)| (named.mode.lambda - lambda).norm();
-        let (place, _) = smallest(of_kind, off)?;
+    let branch = |kind: ModeKind, lambda: c64| {
+        let modes = samples[peak].1.iter().enumerate();
+        let of_kind = modes.filter(|(_, mode)| mode.kind == kind);
+        let (place, _) = smallest(of_kind, |(_, mode)| (mode.lambda - lambda).norm())?;
         let passes = |branch: &&Branch| branch.points.contains(&(peak, place));
-        campbell.branches.iter().find(passes)
+        branches.iter().find(passes)
     };
     let both = [
         branch(ModeKind::Flutter, growing)?,
         branch(ModeKind::Decaying, -growing.conj())?,
     ];
-    let node = |sample: usize| {
-        let of = |branch: &Branch| {
-            let place = branch.points.binary_search_by_key(&sample, |point| point.0);
-            place
-                .ok()
-                .map(|place| &campbell.mode(branch.points[place]).mode)
+    let point = |sample: usize| {
+        let (speed_rad_per_s, modes) = &samples[sample];
+        let mode = |branch: &Branch| {
+            let points = &branch.points;
+            let point = points.binary_search_by_key(&sample, |point| point.0).ok()?;
+            Some(modes[points[point].1])
         };
-        let speed = samples[sample].speed_rad_per_s;
-        let node = Node::new(speed, [of(both[0])?, of(both[1])?])?;
-        let is_inside = band.range().contains(node.speed);
-        (is_inside == (node.square[0] < 0.0)).then_some(node)
+        Some(Point {
+            speed_rad_per_s: *speed_rad_per_s,
+            pair: signed([mode(both[0])?, mode(both[1])?])?,
+        })
     };
-    // Computed samples only; the cubics to the ends of the range need one at or beyond each.
-    let solved: Vec<usize> = (0..samples.len())
-        .filter(|at| samples[*at].is_solved())
-        .collect();
-    let above = |end: f64| solved.partition_point(|at| samples[*at].speed_rad_per_s < end);
-    let first = above(range.from_rad_per_s).saturating_sub(1);
-    let last = (above(range.to_rad_per_s) + 1).min(solved.len());
-    let (below, beyond) =
-        solved[first..last].split_at(solved[first..last].partition_point(|at| *at <= peak));
-    let mut nodes: Vec<Node> = below.iter().rev().copied().map_while(node).collect();
-    nodes.reverse();
-    nodes.extend(beyond.iter().copied().map_while(node));
-    (!nodes.is_empty()).then_some(nodes)
+    let (below, beyond) = (0..peak, peak..samples.len());
+    let mut points: Vec<Point> = below.rev().map_while(point).collect();
+    points.reverse();
+    points.extend(beyond.map_while(point));
+    // The pieces of the search and Newton's method differ slightly in the edges of the band.
+    points.retain(|point| {
+        let is_coalesced = point.pair[0].1 == 0;
+        band.range().contains(point.speed_rad_per_s) == is_coalesced
+    });
+    Some(points)
 }
 
-/// λ and Krein sign of both modes at a speed between two nodes.
-fn value(nodes: &[Node], speed: f64, is_coalesced: bool) -> [(c64, i8); 2] {
-    let after = nodes.partition_point(|node| node.speed < speed);
-    let [last, next] = [after.saturating_sub(1), after.min(nodes.len() - 1)].map(|k| nodes[k]);
-    let width = next.speed - last.speed;
-    let share = if width > 0.0 {
-        (speed - last.speed) / width
-    } else {
-        0.0
+/// λ and Krein sign of two modes that have coalesced, or of two waves of opposite sign, that of sign + first.
+fn signed(modes: [&Mode; 2]) -> Option<[(c64, i8); 2]> {
+    use ModeKind::{Decaying, Flutter, Negative, Positive};
+    let signs = match modes.map(|mode| mode.kind) {
+        [Flutter, Decaying] => [0, 0],
+        [Positive, Negative] => [1, -1],
+        _ => return None,
     };
-    let at = |part: fn(&Node) -> [f64; 2]| {
-        let ends = [part(&last), part(&next)];
-        let cubic = Cubic {
-            values: ends.map(|end| end[0]),
-            slopes: ends.map(|end| end[1] * width),
+    Some([(modes[0].lambda, signs[0]), (modes[1].lambda, signs[1])])
+}
+
+/// Newton's method may leave an interpolated λ by this share of the distance of the two, so that it finds the same one.
+const SAME_PATH: f64 = 0.25;
+
+/// Points with eigenvalues of the model next to the interpolated ones.
+fn refined(model: &SpectralModel, points: Vec<Point>) -> Vec<Point> {
+    let refine = |mut point: Point| {
+        let [(first, sign), (second, _)] = point.pair;
+        let reach = SAME_PATH * (first - second).norm();
+        let refined = |lambda: c64| {
+            let found = model.next_to(point.speed_rad_per_s, lambda);
+            let found = found.map(|(found, _)| found);
+            found.filter(|found| (found - lambda).norm() < reach)
         };
-        cubic.at(share)
+        if sign == 0 {
+            let growing = refined(first).unwrap_or(first);
+            point.pair = [(growing, 0), (-growing.conj(), 0)];
+        } else {
+            let wave = |wave: c64| refined(wave).map_or(wave, |found| c64::new(0.0, found.im));
+            point.pair = [(wave(first), 1), (wave(second), -1)];
+        }
+        point
     };
-    let mean = at(|node| node.mean);
-    let half = at(|node| node.square).abs().sqrt();
-    if is_coalesced {
-        let growing = c64::new(mean, half).sqrt();
-        return [(growing, 0), (-growing.conj(), 0)];
-    }
-    let is_first_larger = last.is_first_larger || next.is_first_larger;
-    let half = if is_first_larger { half } else { -half };
-    let wave = |square: f64| c64::new(0.0, (-square).max(0.0).sqrt());
-    [(wave(mean + half), 1), (wave(mean - half), -1)]
+    points.into_par_iter().map(refine).collect()
 }
 
 #[cfg(test)]
@@ -181,7 +177,9 @@ mod tests {
     use crate::model::plate::{Plate, Resolution};
     use crate::model::scene::{Accuracy, Scene};
     use crate::modes::{SpectralModel, Strategy, companion_eigenpairs};
-    use crate::stability::{InstabilityKind, chart};
+    use crate::stability::InstabilityKind;
+    use crate::stability::options::AnalysisOptions;
+    use crate::stability::undamped::{Depth, charted};
 
     /// Reference: all eigenvalues of the whole matrix along the paths of a band that the range cuts.
     #[test]
@@ -191,11 +189,14 @@ mod tests {
         let range = SpeedRange::between_rpm(0.0, 2264.0);
         let plate = Plate::new(&Scene::paper(), Resolution::of(Accuracy::Draft));
         let model = SpectralModel::new(plate, range, Strategy::Reduced).unwrap();
-        let chart = chart(&model, range, 5, &|_, _| ()).unwrap();
+        let (chart, between) =
+            charted(&model, range, 5, Depth::Counts, AnalysisOptions::default()).unwrap();
         let flutter = |band: &&Instability| band.kind == InstabilityKind::Flutter;
         let band = chart.instabilities.iter().rfind(flutter).unwrap();
         assert!(!band.closed);
-        let loci = RootLoci::new(&chart.campbell, band, range).unwrap();
+        let loci = RootLoci::new(&between, &chart.campbell, band, range)
+            .unwrap()
+            .unwrap();
         assert_eq!(loci.speeds.last(), Some(&range.to_rad_per_s));
         assert!(loci.speeds.windows(2).all(|pair| pair[0] < pair[1]));
         let (mut beside, mut within) = (0, 0);
@@ -211,9 +212,8 @@ mod tests {
                     .iter()
                     .map(|(exact, _)| (exact - lambda).norm())
                     .fold(f64::INFINITY, f64::min);
-                // A figure resolves a few thousandths of the growth.
                 assert!(
-                    off < 2e-3 * band.peak_growth_per_s,
+                    off < 1e-4 * band.peak_growth_per_s,
                     "{speed} {lambda}: {off:e}"
                 );
             }

@@ -38,14 +38,14 @@ use crate::stability::search_result::{FoundBands, StabilityChart};
 /// Number of even speeds at the start of the search for bands; the bands do not depend on it.
 pub(super) const SEARCH_SPEEDS: usize = 9;
 
-/// Finds the bands with their checks, and draws them with the modes between.
-pub(super) fn charted(
-    model: &SpectralModel,
+/// Finds the bands with their checks, and draws them with the modes between, which are returned, too.
+pub(super) fn charted<'a>(
+    model: &'a SpectralModel,
     range: SpeedRange,
     count: usize,
     depth: Depth,
     options: AnalysisOptions<'_>,
-) -> Result<StabilityChart, AnalysisError> {
+) -> Result<(StabilityChart, Between<'a>), AnalysisError> {
     let within = clear_range(&model.critical, range);
     let speeds = DrawnSpeeds::new(model, within, count);
     branches::check_room(model, &speeds.all)?;
@@ -61,11 +61,6 @@ pub(super) fn charted(
         pieces,
     } = bands(model, range, &search, depth, Extent::Diagram)?;
     options.report(&model.critical, range, Some(&found.instabilities));
-    let known = Known::new(model, &pieces, &solved);
-    let between = Between {
-        model,
-        interpolated: Box::new(|speed| known.modes_at(speed)),
-    };
     let inside = solved
         .iter()
         .filter(|at| within.contains(at.speed_rad_per_s));
@@ -75,7 +70,17 @@ pub(super) fn charted(
     };
     let seen = inside.map(shown).collect();
     let beside = beside_edges(&found.instabilities, range);
-    drawn(&between, &speeds, seen, &beside, found, options)
+    let known = Known {
+        model,
+        pieces,
+        solved,
+    };
+    let between = Between {
+        model,
+        interpolated: Box::new(move |speed| known.modes_at(speed)),
+    };
+    let chart = drawn(&between, &speeds, seen, &beside, found, options)?;
+    Ok((chart, between))
 }
 
 /// Finds every band of an undamped blade in a range of speeds, with the results of its checks. The search
