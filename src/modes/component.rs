@@ -7,13 +7,13 @@ use faer::{Col, c64};
 use crate::model::plate::Plate;
 use crate::model::system::GyroscopicSystem;
 
-use super::derivative;
 use super::double_eigenvalue::DoubleEigenvalue;
 use super::error::SpectrumError;
 use super::free_wave;
 use super::half_order;
 use super::mode::{Mode, classify};
 use super::residual::{Lifted, MatrixNorms, lifted};
+use super::single_eigenvalue;
 use super::vectors::{Eigenpair, halves};
 use super::waves::WaveModes;
 
@@ -141,7 +141,7 @@ impl Component {
     pub(super) fn next_to(&self, speed_rad_per_s: f64, expected: c64) -> Option<(c64, c64)> {
         match &self.solution {
             Solution::Waves(modes) => modes.next_to(speed_rad_per_s, expected),
-            _ => derivative::next_to(&self.full, speed_rad_per_s, expected),
+            _ => single_eigenvalue::next_to(&self.full, speed_rad_per_s, expected),
         }
     }
 

@@ -18,9 +18,9 @@
 use faer::linalg::solvers::{PartialPivLu, Solve};
 use faer::{Col, Mat, Scale, c64};
 
-use super::derivative::{beside, stands_still};
+use super::family::{Family, MatrixPolynomial};
+use super::single_eigenvalue::nearest;
 use super::vectors::unit;
-use crate::model::system::{GyroscopicSystem, dynamic_stiffness};
 
 /// A double eigenvalue.
 #[derive(Debug, Clone)]
@@ -39,77 +39,18 @@ pub struct DoubleEigenvalue {
     pub left: Col<c64>,
 }
 
-/// L(λ, Ω) with its derivatives at a point.
-pub struct Derivatives {
-    /// L.
-    pub value: Mat<c64>,
-    /// L_λ, L_λλ, L_λλλ.
-    pub by_root: [Mat<c64>; 3],
-    /// L_Ω, L_λΩ.
-    pub by_speed: [Mat<c64>; 2],
-}
-
-/// Matrices L(λ, Ω), an eigenvalue problem that depends on the speed.
-pub trait Family {
-    /// Number of unknowns.
-    fn order(&self) -> usize;
-    /// L and its derivatives at a speed and at λ.
-    fn derivatives(&self, speed_rad_per_s: f64, lambda: c64) -> Derivatives;
-}
-
-impl Family for GyroscopicSystem {
-    fn order(&self) -> usize {
-        GyroscopicSystem::order(self)
-    }
-
-    fn derivatives(&self, speed_rad_per_s: f64, lambda: c64) -> Derivatives {
-        let (order, speed) = (self.order(), speed_rad_per_s);
-        let (stiffness, velocity) = (self.stiffness_at(speed), self.velocity_at(speed));
-        let diagonal = |i: usize, k: usize, entry: c64| if i == k { entry } else { c64::ZERO };
-        let drift = self.drift.as_ref().filter(|_| stands_still(lambda));
-        let by_speed = Mat::from_fn(order, order, |i, k| {
-            let drift = drift.map_or(0.0, |drift| drift[(i, k)]);
-            let circulatory = self
-                .circulatory
-                .as_ref()
-                .map_or(0.0, |matrix| matrix[(i, k)]);
-            let turned = 2.0 * lambda * self.gyroscopic[(i, k)];
-            turned + 2.0 * speed * (self.spin[(i, k)] + drift) + circulatory
-        });
-        Derivatives {
-            value: dynamic_stiffness(&stiffness, &velocity, lambda),
-            by_root: [
-                Mat::from_fn(order, order, |i, k| {
-                    diagonal(i, k, 2.0 * lambda) + velocity[(i, k)]
-                }),
-                Mat::from_fn(order, order, |i, k| diagonal(i, k, c64::new(2.0, 0.0))),
-                Mat::zeros(order, order),
-            ],
-            by_speed: [
-                by_speed,
-                Mat::from_fn(order, order, |i, k| {
-                    c64::from(2.0 * self.gyroscopic[(i, k)])
-                }),
-            ],
-        }
-    }
-}
-
 /// Largest number of steps; convergence is quadratic.
 const STEPS: usize = 12;
 /// Relative size of the last correction of the speed.
 const TOLERANCE: f64 = 1e-9;
-/// Number of inverse iterations for the first columns b and c.
-const FIRST_ITERATIONS: usize = 3;
-
 impl DoubleEigenvalue {
     /// The coalescence next to an expected one. That of waves λ = iω or of real λ is at another λ of this kind. `None` if the
     /// iteration does not converge.
-    pub fn next_to(system: &impl Family, speed_rad_per_s: f64, expected: c64) -> Option<Self> {
+    pub fn next_to(family: &impl Family, speed_rad_per_s: f64, expected: c64) -> Option<Self> {
         let (mut speed, mut lambda) = (speed_rad_per_s, expected);
-        let [mut right, mut left] = vectors(system, speed, lambda)?;
+        let [mut right, mut left] = vectors(family, speed, lambda)?;
         for _ in 0..STEPS {
-            let jet = Jet::new(system, speed, lambda, [&right, &left])?;
+            let jet = Jet::new(family, speed, lambda, [&right, &left])?;
             let [by_root, by_speed, twice_by_root, by_both, thrice_by_root] = jet.slopes;
             let determinant = by_root * by_both - by_speed * twice_by_root;
             let change = (by_speed * by_root - by_both * jet.value) / determinant;
@@ -141,20 +82,12 @@ impl DoubleEigenvalue {
     }
 }
 
-/// The right and the left vector of the eigenvalue nearest to λ, by inverse iteration.
-fn vectors(system: &impl Family, speed: f64, lambda: c64) -> Option<[Col<c64>; 2]> {
-    let factors = system
-        .derivatives(speed, beside(lambda))
-        .value
-        .partial_piv_lu();
-    // These cosines are unrelated to the shapes, so that practically no mode is orthogonal to them.
-    let start = Col::from_fn(system.order(), |i| c64::new((1.0 + i as f64).cos(), 0.0));
-    let (mut right, mut left) = (start.clone(), start);
-    for _ in 0..FIRST_ITERATIONS {
-        let solved: [Col<c64>; 2] = [factors.solve(&right), factors.solve_adjoint(&left)];
-        [right, left] = solved.map(|x| unit(x.as_ref()));
-    }
-    (right.is_all_finite() && left.is_all_finite()).then_some([right, left])
+/// The right and the left vector of the eigenvalue nearest to λ.
+fn vectors(family: &impl Family, speed: f64, lambda: c64) -> Option<[Col<c64>; 2]> {
+    let at = family.at(speed);
+    let [value, by_root] = at.by_root(lambda);
+    let found = nearest(&at, lambda, [&value, &by_root], None);
+    found.iter().all(Col::is_all_finite).then_some(found)
 }
 
 /// The function g at a point with its vectors.
@@ -170,13 +103,13 @@ struct Jet {
 }
 
 impl Jet {
-    fn new(system: &impl Family, speed: f64, lambda: c64, [c, b]: [&Col<c64>; 2]) -> Option<Self> {
-        let derivatives = system.derivatives(speed, lambda);
-        let bordered = Bordered::new(&derivatives.value, c, b);
-        let (right, value) = bordered.solved(&Col::zeros(system.order()), c64::new(1.0, 0.0));
+    fn new(family: &impl Family, speed: f64, lambda: c64, [c, b]: [&Col<c64>; 2]) -> Option<Self> {
+        let at = family.at(speed);
+        let [dynamic, by_root, twice_by_root, thrice_by_root] = &at.by_root(lambda);
+        let [by_speed, by_both] = &at.by_speed(lambda);
+        let bordered = Bordered::new(dynamic, c, b);
+        let (right, value) = bordered.solved(&Col::zeros(at.order()), c64::new(1.0, 0.0));
         let left = bordered.left();
-        let [by_root, twice_by_root, thrice_by_root] = &derivatives.by_root;
-        let [by_speed, by_both] = &derivatives.by_speed;
         let form = |x: Col<c64>| -(left.adjoint() * x);
         let [rooted, sped] = [by_root * &right, by_speed * &right];
         let moved = |load: &Col<c64>| bordered.solved(&-load, c64::new(0.0, 0.0)).0;
@@ -241,6 +174,7 @@ impl Bordered {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::model::system::GyroscopicSystem;
 
     /// A turning shaft on springs a and b: λ⁴ + (a + b + 2Ω²)λ² + (a − Ω²)(b − Ω²) has a double λ² = −(a + b)/2 − Ω² where
     /// 8Ω² = −(a − b)²/(a + b). With λ₁λ₂ = ∓√((a − Ω²)(b − Ω²)), − for waves and + for real λ,

@@ -7,19 +7,19 @@
 //! (A − B F⁻¹ C)(λ) = K̃ + λC̃ + λ²M̃ + λ³s₃ + λ⁴s₄ + …
 //!
 //! (`elimination`), at the nodes of a Chebyshev series in the speed (`speed_series`). No eigenproblem of
-//! the full matrices is needed. The eigenvalues are those of all terms together (`pair`, `roots`), or one of them
-//! (`newton`); λ is in units of the window, the frequency up to which the eigenvalues are wanted.
+//! the full matrices is needed. The eigenvalues are those of all terms together (`pair`, `roots`), or one or two of them by
+//! Newton's method on its derivatives (`at_speed`); λ is in units of the window, the frequency up to which the eigenvalues are wanted.
 
 use crate::model::scene::SpeedRange;
 use faer::Mat;
 
+mod at_speed;
 mod blade;
 mod coordinates;
 mod elimination;
 mod far_velocity;
 mod modes;
 mod near_block;
-mod newton;
 mod pair;
 mod roots;
 mod speed_series;

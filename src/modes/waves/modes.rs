@@ -16,6 +16,7 @@ use crate::model::system::dynamic_stiffness;
 use crate::modes::double_eigenvalue::DoubleEigenvalue;
 use crate::modes::error::SpectrumError;
 use crate::modes::mode::Mode;
+use crate::modes::single_eigenvalue;
 use crate::modes::vectors::{halves, joined, smallest, unit};
 
 /// Unknowns that no others act on.
@@ -142,7 +143,7 @@ impl WaveModes {
     pub fn next_to(&self, speed_rad_per_s: f64, expected: c64) -> Option<(c64, c64)> {
         let found = self
             .models()
-            .filter_map(|model| model.next_to(speed_rad_per_s, expected));
+            .filter_map(|model| single_eigenvalue::next_to(model, speed_rad_per_s, expected));
         smallest(found, |(lambda, _)| (lambda - expected).norm())
     }
 

@@ -7,7 +7,7 @@ use faer::c64;
 
 use crate::modes::branches::ModesAt;
 use crate::modes::waves::WaveModel;
-use crate::modes::{SpectralModel, SpectrumError, smallest};
+use crate::modes::{SpectralModel, SpectrumError, single_eigenvalue, smallest};
 use crate::stability::group::Sloped;
 use crate::stability::growth_curve::Numbers;
 use crate::stability::pieces::Piece;
@@ -152,7 +152,7 @@ impl Component<'_> {
         let counters = &self.solver.model.counters;
         counters.cancellation.check()?;
         counters.refined_pairs.fetch_add(1, Ordering::Relaxed);
-        Ok(self.model.next_to(speed, expected))
+        Ok(single_eigenvalue::next_to(self.model, speed, expected))
     }
 
     /// Eigenvalues at a speed of the search. If the component is the whole saw, its modes are kept for the chart.
