@@ -25,6 +25,14 @@ pub(crate) const PAST_THE_RANGE: f64 = 1.05;
 /// still at nearly the same speed.
 pub(crate) const CHARTED: usize = 40;
 
+/// Taken for the first critical speed of a blade without one.
+const NONE_BELOW_RPM: f64 = 1000.0;
+/// A sweep that the program chooses goes on to this multiple of the operating speed, so that a critical speed within 5 % of it is seen.
+const ABOVE_OPERATING: f64 = 1.05;
+/// A sweep that the program chooses goes on to at most this multiple of the first critical speed: a saw with two pads takes 1.6 s to
+/// twice, 2.8 s to 2.4 times and 66 s to 4.8 times that speed.
+const FARTHEST: f64 = 3.0;
+
 /// A sweep may contain standing waves of this number of nodal diameters more than that of the first critical speed:
 /// any two of them may couple, so that the work grows with a high power of their number.
 pub(super) const SWEPT: usize = 70;
@@ -240,9 +248,16 @@ pub(crate) fn is_cut_short(scene: &Scene, critical_rad_per_s: &[f64]) -> bool {
     next.is_some_and(|next| *next < usual)
 }
 
-/// Twice the first critical speed, but at most [`fastest_rad_per_s`]; in rad/s.
+/// Twice the first critical speed, or above the operating speed up to three times the first critical speed, but at most
+/// [`fastest_rad_per_s`]; in rad/s.
 pub(crate) fn usual_end(scene: &Scene, lowest_critical_rad_per_s: Option<f64>) -> f64 {
-    default_top(lowest_critical_rad_per_s).min(fastest_rad_per_s(scene.blade()))
+    let lowest = lowest_critical_rad_per_s.map_or(NONE_BELOW_RPM, rpm);
+    let operating = ABOVE_OPERATING * scene.file().operating_rpm.unwrap_or(0.0);
+    let top = match operating / lowest {
+        2.0..=FARTHEST => operating,
+        _ => 2.0 * lowest,
+    };
+    rad_per_s(rounded_up(top)).min(fastest_rad_per_s(scene.blade()))
 }
 
 /// The number of fewest digits between two numbers, at most nine.
@@ -252,11 +267,10 @@ fn round_between(low: f64, high: f64) -> f64 {
     between.next().unwrap_or(low)
 }
 
-/// Twice the first critical speed, rounded up to two digits in rpm; 2000 rpm without a critical speed.
-fn default_top(lowest_rad_per_s: Option<f64>) -> f64 {
-    let lowest = lowest_rad_per_s.map_or(1000.0, rpm);
-    let digit = 10_f64.powf((2.0 * lowest).log10().floor() - 1.0);
-    rad_per_s((2.0 * lowest / digit).ceil() * digit)
+/// A number rounded up to two digits.
+fn rounded_up(number: f64) -> f64 {
+    let digit = 10_f64.powf(number.log10().floor() - 1.0);
+    (number / digit).ceil() * digit
 }
 
 /// Critical speeds without their waves, in rad/s.
@@ -285,6 +299,21 @@ mod tests {
             other => panic!("{other:?}"),
         }
         assert!(!told.into_inner());
+    }
+
+    #[test]
+    fn a_chosen_sweep_passes_the_operating_speed_unless_that_is_far_away() {
+        let first = rad_per_s(1500.0);
+        for (operating, end) in [
+            (1400.0, 3000.0),
+            (2840.0, 3000.0),
+            (3999.0, 4200.0),
+            (4400.0, 3000.0),
+        ] {
+            let scene = Scene::paper().edited(|saw| saw.operating_rpm = Some(operating));
+            let found = rpm(usual_end(&scene.unwrap(), Some(first)));
+            assert!((found - end).abs() < 1e-6, "{operating}: {found}");
+        }
     }
 
     /// Hoop strain ρ(Ωb)²/E of the paper's blade: 0.1 at 43 400 rpm.

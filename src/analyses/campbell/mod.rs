@@ -57,7 +57,7 @@ pub use self::modes::{
     WhirlMode,
 };
 pub use self::outline::Answer;
-pub(crate) use self::outline::{answer, checks, outline, sharper, too_close};
+pub(crate) use self::outline::{answer, caution, checks, outline, sharper, too_close};
 #[cfg(feature = "page")]
 pub(crate) use self::outline::{deciding, headline, usable};
 pub(crate) use self::remarks::{lifting_off, side_force_in_words};

@@ -35,6 +35,7 @@ pub(crate) use outline::outline;
 pub(crate) use point_load::PointLoad;
 pub use report::{Arc, DeflectReport, EquilibriumCurve, Jump, SlowSweep, Turn};
 
+use crate::analyses::campbell::caution;
 use crate::model::scene::Scene;
 
 use equilibria::Equilibria;
@@ -52,6 +53,7 @@ pub fn deflect(scene: &Scene, options: &Options) -> Result<DeflectReport, Deflec
     let chart = found.analysis.report();
     let probe = scene.probe();
     let reader = Reader::new(&found.blade, probe, chart.campbell.complete_to_hz);
+    let of_chart = caution(&chart).into_iter().chain(chart.warnings);
     Ok(DeflectReport {
         sawflutter: chart.sawflutter,
         scene: scene.file().clone(),
@@ -85,6 +87,6 @@ pub fn deflect(scene: &Scene, options: &Options) -> Result<DeflectReport, Deflec
         critical_speeds: chart.critical_speeds,
         instabilities: chart.instabilities,
         campbell: chart.campbell,
-        warnings: chart.warnings.into_iter().chain(found.cut_off()).collect(),
+        warnings: of_chart.chain(found.cut_off()).collect(),
     })
 }

@@ -52,6 +52,7 @@ use amplitude::{AmplitudeChart, pushes};
 use deviation::deviation_map;
 use oscillation::oscillation;
 
+use crate::analyses::campbell::caution;
 use crate::model::scene::{Scene, rad_per_s, rpm};
 use crate::motion::steady::Oscillators;
 use crate::stability::Analysis;
@@ -85,7 +86,7 @@ pub fn gap(scene: &Scene, options: &Options) -> Result<GapReport, GapError> {
         .map(|friction| FrictionHeat::new(&analysis, friction, speed_rpm))
         .transpose()?;
     let chart = analysis.report();
-    let mut warnings = chart.warnings;
+    let mut warnings: Vec<String> = caution(&chart).into_iter().chain(chart.warnings).collect();
     warnings.extend(shifting(scene));
     warnings.extend(heated.as_ref().and_then(FrictionHeat::warning));
     warnings.extend(oscillation.iter().flat_map(Oscillation::warnings));

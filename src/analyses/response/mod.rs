@@ -32,6 +32,7 @@ pub use report::{
 
 use std::f64::consts::TAU;
 
+use crate::analyses::campbell::caution;
 use crate::model::plate::Plate;
 use crate::model::scene::{RefusedValue, Scene, SceneError, USUAL_SIDE_FORCE_N, rad_per_s, rpm};
 use crate::modes::SpectrumError;
@@ -134,6 +135,7 @@ pub(crate) fn of_analysis(
     let board_deviation_m: Vec<Option<f64>> = (0..rpm.len()).map(deviation_m).collect();
     let (probe, chart) = (scene.probe(), analysis.report());
     let assumed = is_assumed.then_some(force_n);
+    let of_chart = caution(&chart).into_iter().chain(chart.warnings).collect();
     Ok(ResponseReport {
         sawflutter: chart.sawflutter,
         scene: scene.file().clone(),
@@ -147,7 +149,7 @@ pub(crate) fn of_analysis(
         cut_angle_deg: scene.file().cut_angle_deg(),
         damped: !analysis.model.is_conservative(),
         linear_limit_m: solver.limit_m,
-        warnings: warnings(scene, assumed, &lines, chart.warnings),
+        warnings: warnings(scene, assumed, &lines, of_chart),
         instabilities: chart.instabilities,
         operating: OperatingResponse::new(scene, &motion, &rpm, &lines, &board_deviation_m),
         rpm,

@@ -271,6 +271,45 @@ fn narrow_lines_of_tooth_passing_have_their_height() {
     assert!(compared > 2, "{compared}");
 }
 
+/// The speeds are 1 % below the first critical speed, far from all, and next to an edge of flutter, by a tenth of its error.
+#[test]
+fn an_operating_speed_that_is_hardly_stable_is_named() {
+    let at = |rpm: f64| {
+        let saw = scene(SideForceFile::of(1.0), ResponseFile::default(), |saw| {
+            saw.operating_rpm = Some(rpm);
+        });
+        response(&saw, &Options::default()).unwrap()
+    };
+    let bands = at(600.0).instabilities;
+    let flutter = bands
+        .iter()
+        .find(|band| !band.counted_rpm.is_empty() && band.frequency_hz > 0.0)
+        .unwrap();
+    let error_rpm = flutter.estimated_relative_error.unwrap() * flutter.from_rpm;
+    let critical_rpm = Analysis::new(&Scene::paper()).unwrap().model.critical[0].speed_rad_per_s;
+    for (operating, words) in [
+        (600.0, None),
+        (
+            0.99 * rpm(critical_rpm),
+            Some("within 5 % of the critical speed"),
+        ),
+        (
+            flutter.from_rpm - 0.1 * error_rpm,
+            Some("too close to call"),
+        ),
+    ] {
+        let warnings = at(operating).warnings;
+        let named = |words: &str| warnings.iter().any(|warning| warning.contains(words));
+        let all = ["within 5 % of", "too close to call"];
+        assert_eq!(
+            all.iter().any(|words| named(words)),
+            words.is_some(),
+            "{warnings:?}"
+        );
+        assert!(words.is_none_or(named), "{warnings:?}");
+    }
+}
+
 /// Without damping no deflection is reported at a resonance: it is unbounded, and the text gives no height of a neighbouring speed. No
 /// steady state exists where the saw is unstable by its verdict, which a band below the threshold does not change. A run-out of a blade
 /// that tilts freely is refused.

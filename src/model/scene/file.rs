@@ -57,7 +57,7 @@ pub struct SceneFile {
     /// Lines of the Campbell diagram at multiples of the rotation speed. None by default.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub excitation: Option<ExcitationFile>,
-    /// Range of speeds; by default from rest to twice the first critical speed, or to the fortieth.
+    /// Range of speeds; by default from rest to twice the first critical speed, or past an operating speed of up to three times the first critical speed, or to the fortieth.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub sweep: Option<SweepFile>,
     /// Accuracy by name; a lower one is faster.

@@ -163,6 +163,21 @@ fn undecided(report: &Report, operating: &OperatingPoint) -> Option<String> {
     Some(too_close(edge, error, report.accuracy.name))
 }
 
+/// What an analysis of another kind says of an operating speed at which the saw is stable but hardly, or too close to an edge to
+/// call.
+pub fn caution(report: &Report) -> Option<String> {
+    let operating = report.operating.as_ref()?;
+    let said = match Answer::new(operating) {
+        Answer::TooClose => {
+            let reason = undecided(report, operating)?;
+            format!("too close to call whether the saw is stable: {reason}")
+        }
+        Answer::AtCritical => at_critical_speed(report, operating)?,
+        _ => return None,
+    };
+    Some(format!("at {:.0} rpm {said}", operating.rpm))
+}
+
 /// States that the estimated error of the edge of a band leaves open whether a saw is stable, and the remedy.
 pub fn too_close(edge_rpm: f64, error_rpm: f64, accuracy: Accuracy) -> String {
     format!(

@@ -7,7 +7,7 @@ mod in_cut;
 mod influences;
 mod whirl;
 
-pub use answer::{Answer, answer, sharper, too_close};
+pub use answer::{Answer, answer, caution, sharper, too_close};
 #[cfg(feature = "page")]
 pub use answer::{deciding, headline, usable};
 pub use checks::checks;
