@@ -21,7 +21,7 @@ pub use pad::LoadedPad;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::campbell::{Report, Sensitivity};
+use super::campbell::{Report, Sensitivity, caution};
 use super::gap::{self, GapReport, gap};
 use super::response::{self, ResponseReport};
 use crate::model::scene::{Scene, SceneFile};
@@ -118,11 +118,13 @@ pub fn report(scene: &Scene, options: &Options) -> Result<DesignReport, DesignEr
         Some((_, report)) => format!("idling, and {}", report.condition),
         None => idling.condition.clone(),
     };
+    // The verdicts say what other analyses warn of.
+    let told: Vec<String> = reports().filter_map(caution).collect();
     let mut warnings: Vec<String> = Vec::new();
     let analysed = reports().map(|report| &report.warnings);
     let others = gap.iter().map(|gap| &gap.warnings);
     for warning in analysed.chain([&response.warnings]).chain(others).flatten() {
-        if !warnings.contains(warning) {
+        if !warnings.contains(warning) && !told.contains(warning) {
             warnings.push(warning.clone());
         }
     }
