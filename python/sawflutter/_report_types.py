@@ -1179,9 +1179,9 @@ class ToothPassing(Entry):
     standing_growth_per_s : Growth under stationary loads at the mean places of the teeth.
     mean_growth_per_s : Growth under the mean of the moving loads.
     passing_growth_per_s : Growth under the moving loads, from Floquet multipliers.
-    standing_deflection_m : Largest deflection at the probe in the cut under stationary loads;
+    standing_deflection_m : Largest deflection of the rim in the cut under stationary loads;
         null if the linear model ends before the cut.
-    passing_deflection_m : Largest deflection at the probe in the cut under moving loads.
+    passing_deflection_m : Largest deflection of the rim in the cut under moving loads.
     """
 
     tooth_frequency_hz: float
@@ -1305,12 +1305,12 @@ class CutRun(Entry):
     certificate : Comparison of the growing modes with counts on the full model.
     by_power : The cut with the tangential force that follows from the power, if it is given.
     tooth_passing : Comparison of moving and stationary tooth loads.
-    linear_until_s : Time at which the deflection at the probe exceeds the linear model and the
+    linear_until_s : Time at which the deflection of the rim exceeds the linear model and the
         record ends; null if it does not, and with stretching.
-    largest_deflection_in_cut_m : Largest deflection at the probe before the forces end; null if
+    largest_deflection_in_cut_m : Largest deflection of the rim before the forces end; null if
         the model, linear or with stretching, ends earlier.
-    largest_deflection_after_m : Largest deflection at the probe after the forces end; null if
-        the model, linear or with stretching, ends before the record.
+    largest_deflection_after_m : Largest deflection of the rim after the forces end; null if the
+        model, linear or with stretching, ends before the record.
     forces_from_s : Start of the forces.
     forces_to_s : End of the forces.
     stretching : Results with stretching, if the scene requests it.
@@ -2923,11 +2923,12 @@ class RunUpReport(Entry):
     rate_rpm_per_s : Rate of the run-up.
     step_s : Time step.
     linear_limit_m : Largest deflection that is given; beyond it the linear model is not valid.
-    linear_until_rpm : Speed at which the deflection at the probe exceeds this limit and the
+    linear_until_rpm : Speed at which the deflection of the rim exceeds this limit and the
         record ends; null if it does not.
     rpm : Speeds of the record.
     deflection_m : Deflection at the probe.
-    largest_deflection_m : Largest magnitude of the deflection at the probe.
+    largest_deflection_m : Largest magnitude of the deflection of the rim, or of the probe if
+        that is larger.
     largest_deflection_rpm : Speed of the largest deflection.
     critical_speeds : Critical speeds up to the end of the run-up.
     bands : Bands of instability and their effect on the run-up.
