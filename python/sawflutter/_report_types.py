@@ -2303,6 +2303,27 @@ class FragileOptimum(Entry):
 
 
 @dataclass(frozen=True, eq=False, repr=False, kw_only=True)
+class FrontSaw(Entry):
+    """A saw of the front.
+
+    Attributes
+    ----------
+    values : Values of the numbers, in their order.
+    flutter_rpm : Flutter speed; null if it exceeds the sweep.
+    lowest_critical_rpm : First critical speed.
+    worst_goal_rpm : The goal in the worst case of the tolerances.
+    deflection_m : Deflection at the cut under the side force at the operating speed, as an
+        absolute value.
+    """
+
+    values: FloatArray
+    flutter_rpm: float | None
+    lowest_critical_rpm: float | None = field(metadata={"key": "critical_rpm"})
+    worst_goal_rpm: float
+    deflection_m: float
+
+
+@dataclass(frozen=True, eq=False, repr=False, kw_only=True)
 class Map(Entry):
     """The goal over two numbers; the others have their best values.
 
@@ -2342,7 +2363,7 @@ class PlaceReport(Entry):
     amplitude_m : Amplitude at guides with a gap with whose mean stiffness bands and critical
         speeds were computed, if one was given.
     max_deflection_m : Upper limit of the deflection at the cut, if there is one.
-    force_n : Side force for this limit.
+    force_n : Side force for this limit and for the deflections of the front; null without both.
     kept : Whether the best saw keeps the limits in the worst case of its tolerances.
     improved : Whether the best saw is better than the original scene, both in the worst case of
         their tolerances. If no saw between the bounds is better, `scene`, `best` and the
@@ -2364,6 +2385,11 @@ class PlaceReport(Entry):
     worst_neighbour_share : Goal of this neighbour divided by that of the best saw.
     fragile_optimum : The saw with the best nominal goal, if it is better than the best saw and
         worse within its tolerances; null otherwise.
+    front : Saws that trade the goal, in the worst case of their tolerances, against the
+        deflection at the cut at the operating speed, those that deflect least first; of the
+        saws tried none with a smaller deflection has a better worst case. Empty if the
+        deflection of the best saw is unknown: without an operating speed, in a band, and if
+        rigid motions are free.
     almost : Bands that nearly reach the threshold and begin below the flutter speed.
     map : The goal over two numbers, on the coarse basis of the search.
     saws : Number of saws analysed.
@@ -2398,6 +2424,7 @@ class PlaceReport(Entry):
     worst_neighbour: Neighbour | None
     worst_neighbour_share: float
     fragile_optimum: FragileOptimum | None
+    front: tuple[FrontSaw, ...] = field(default=())
     almost: tuple[Instability, ...]
     map: Map | None
     saws: int
