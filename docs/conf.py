@@ -24,6 +24,7 @@ extensions = [
     "sphinx.ext.napoleon",
     "generated",
     "rust_items",
+    "sphinx_design",
 ]
 exclude_patterns = ["_generated", "_ext"]
 nitpicky = True

@@ -1179,9 +1179,9 @@ class ToothPassing(Entry):
     standing_growth_per_s : Growth under stationary loads at the mean places of the teeth.
     mean_growth_per_s : Growth under the mean of the moving loads.
     passing_growth_per_s : Growth under the moving loads, from Floquet multipliers.
-    standing_deflection_m : Largest deflection at the probe in the cut under stationary loads;
+    standing_deflection_m : Largest deflection of the rim in the cut under stationary loads;
         null if the linear model ends before the cut.
-    passing_deflection_m : Largest deflection at the probe in the cut under moving loads.
+    passing_deflection_m : Largest deflection of the rim in the cut under moving loads.
     """
 
     tooth_frequency_hz: float
@@ -1305,12 +1305,12 @@ class CutRun(Entry):
     certificate : Comparison of the growing modes with counts on the full model.
     by_power : The cut with the tangential force that follows from the power, if it is given.
     tooth_passing : Comparison of moving and stationary tooth loads.
-    linear_until_s : Time at which the deflection at the probe exceeds the linear model and the
+    linear_until_s : Time at which the deflection of the rim exceeds the linear model and the
         record ends; null if it does not, and with stretching.
-    largest_deflection_in_cut_m : Largest deflection at the probe before the forces end; null if
+    largest_deflection_in_cut_m : Largest deflection of the rim before the forces end; null if
         the model, linear or with stretching, ends earlier.
-    largest_deflection_after_m : Largest deflection at the probe after the forces end; null if
-        the model, linear or with stretching, ends before the record.
+    largest_deflection_after_m : Largest deflection of the rim after the forces end; null if the
+        model, linear or with stretching, ends before the record.
     forces_from_s : Start of the forces.
     forces_to_s : End of the forces.
     stretching : Results with stretching, if the scene requests it.
@@ -2303,6 +2303,27 @@ class FragileOptimum(Entry):
 
 
 @dataclass(frozen=True, eq=False, repr=False, kw_only=True)
+class FrontSaw(Entry):
+    """A saw of the front.
+
+    Attributes
+    ----------
+    values : Values of the numbers, in their order.
+    flutter_rpm : Flutter speed; null if it exceeds the sweep.
+    lowest_critical_rpm : First critical speed.
+    worst_goal_rpm : The goal in the worst case of the tolerances.
+    deflection_m : Deflection at the cut under the side force at the operating speed, as an
+        absolute value.
+    """
+
+    values: FloatArray
+    flutter_rpm: float | None
+    lowest_critical_rpm: float | None = field(metadata={"key": "critical_rpm"})
+    worst_goal_rpm: float
+    deflection_m: float
+
+
+@dataclass(frozen=True, eq=False, repr=False, kw_only=True)
 class Map(Entry):
     """The goal over two numbers; the others have their best values.
 
@@ -2342,7 +2363,7 @@ class PlaceReport(Entry):
     amplitude_m : Amplitude at guides with a gap with whose mean stiffness bands and critical
         speeds were computed, if one was given.
     max_deflection_m : Upper limit of the deflection at the cut, if there is one.
-    force_n : Side force for this limit.
+    force_n : Side force for this limit and for the deflections of the front; null without both.
     kept : Whether the best saw keeps the limits in the worst case of its tolerances.
     improved : Whether the best saw is better than the original scene, both in the worst case of
         their tolerances. If no saw between the bounds is better, `scene`, `best` and the
@@ -2364,6 +2385,11 @@ class PlaceReport(Entry):
     worst_neighbour_share : Goal of this neighbour divided by that of the best saw.
     fragile_optimum : The saw with the best nominal goal, if it is better than the best saw and
         worse within its tolerances; null otherwise.
+    front : Saws that trade the goal, in the worst case of their tolerances, against the
+        deflection at the cut at the operating speed, those that deflect least first; of the
+        saws tried none with a smaller deflection has a better worst case. Empty if the
+        deflection of the best saw is unknown: without an operating speed, in a band, and if
+        rigid motions are free.
     almost : Bands that nearly reach the threshold and begin below the flutter speed.
     map : The goal over two numbers, on the coarse basis of the search.
     saws : Number of saws analysed.
@@ -2398,6 +2424,7 @@ class PlaceReport(Entry):
     worst_neighbour: Neighbour | None
     worst_neighbour_share: float
     fragile_optimum: FragileOptimum | None
+    front: tuple[FrontSaw, ...] = field(default=())
     almost: tuple[Instability, ...]
     map: Map | None
     saws: int
@@ -2923,11 +2950,12 @@ class RunUpReport(Entry):
     rate_rpm_per_s : Rate of the run-up.
     step_s : Time step.
     linear_limit_m : Largest deflection that is given; beyond it the linear model is not valid.
-    linear_until_rpm : Speed at which the deflection at the probe exceeds this limit and the
+    linear_until_rpm : Speed at which the deflection of the rim exceeds this limit and the
         record ends; null if it does not.
     rpm : Speeds of the record.
     deflection_m : Deflection at the probe.
-    largest_deflection_m : Largest magnitude of the deflection at the probe.
+    largest_deflection_m : Largest magnitude of the deflection of the rim, or of the probe if
+        that is larger.
     largest_deflection_rpm : Speed of the largest deflection.
     critical_speeds : Critical speeds up to the end of the run-up.
     bands : Bands of instability and their effect on the run-up.

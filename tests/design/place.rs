@@ -3,16 +3,20 @@
 //! Sources: symmetry (guides that turn together give the same saw), and brute force.
 
 use crate::common::{assert_close, scene};
+use faer::Col;
+use faer::linalg::solvers::Solve;
 use rayon::prelude::*;
 use sawflutter::analyses::commands::CommandReport;
 use sawflutter::analyses::gap;
 use sawflutter::analyses::place::{
-    self, Demands, GapDemands, Options, PlaceError, PlaceReport, Tolerances,
+    self, Demands, FrontSaw, GapDemands, Options, PlaceError, PlaceReport, Tolerances,
 };
+use sawflutter::analyses::response::{self, response};
 use sawflutter::model::plate::{Plate, Resolution};
 use sawflutter::model::scene::{
     Accuracy, ContactLaw, Freed, Parameter, Scene, SideForceFile, SpeedRange, rad_per_s, rpm,
 };
+use sawflutter::model::system::GyroscopicSystem;
 use sawflutter::modes::{SpectralModel, Strategy};
 use sawflutter::stability::{Instability, InstabilityKind, Onsets, undamped_bands};
 
@@ -23,6 +27,10 @@ const ANGLE: &str = "guides[0].angle_deg";
 const SMALL: Resolution = Resolution {
     max_diameters: 6,
     radial_functions: 3,
+};
+const LARGE: Resolution = Resolution {
+    max_diameters: 40,
+    radial_functions: 14,
 };
 const TOP_RPM: f64 = 2400.0;
 
@@ -207,6 +215,72 @@ fn brute_force_finds_no_better_worst_case_of_the_tolerances() {
     assert!(summary.contains(&said), "{summary}");
     let map = found.map.unwrap();
     assert_eq!((map.x.len(), map.y.len(), map.goal_rpm.len()), (7, 7, 7));
+}
+
+/// Deflection of the rim at the cut under 1 N at the operating speed: a solution of K(Ω) q = φ.
+fn deflection_m(scene: &Scene, resolution: Resolution) -> f64 {
+    let plate = Plate::new(scene, resolution);
+    let stiffness =
+        GyroscopicSystem::of_plate(&plate).stiffness_at(scene.operating_rad_per_s().unwrap());
+    let cut = plate.functions_at(plate.blade.outer_radius_m, 0.0);
+    let cut = Col::from_fn(cut.len(), |i| cut[i]);
+    f64::abs(cut.transpose() * stiffness.full_piv_lu().solve(&cut))
+}
+
+/// Each saw of the front has the speeds that other functions compute, and the deviation of `response`. No cell of the map deflects
+/// less and has a higher flutter speed, both in the worst case of the tolerances.
+#[test]
+fn no_saw_of_the_map_is_better_than_the_front_in_both_respects() {
+    let saw = swept("two-pads")
+        .edited(|saw| (saw.accuracy, saw.operating_rpm) = (Accuracy::Draft, Some(1000.0)))
+        .unwrap();
+    let free = freed(&saw, &[(RADIUS, 0.22, 0.28), (ANGLE, -100.0, -20.0)]);
+    let options = Options { map: 4, ..quick() };
+    let found = place(&saw, &free, &Demands::default(), &options);
+    let at = |values: &[f64]| with(&saw, &[(RADIUS, values[0]), (ANGLE, values[1])]);
+    assert!(found.front.len() > 1, "{:?}", found.front);
+    assert_eq!(found.force_n, Some(1.0));
+    for row in &found.front {
+        let scene = at(&row.values);
+        assert_close(
+            "flutter",
+            flutter_rpm(&scene),
+            row.flutter_rpm.unwrap(),
+            1e-6,
+        );
+        let worst = worst_flutter_rpm(&scene, &[RADIUS, ANGLE]);
+        assert_close("worst", worst, row.worst_goal_rpm, 1e-6);
+        let steady = response(&scene, &response::Options::default()).unwrap();
+        let deviation_m = steady.operating.unwrap().board_deviation_m.unwrap();
+        // A point force deflects its place in waves of all lengths, which takes a large basis; that of `response` is small.
+        assert_close("deviation", row.deflection_m, deviation_m, 0.02);
+        let exact_m = deflection_m(&scene, LARGE);
+        println!("{row:?} {deviation_m} {exact_m}");
+        assert_close("deflection", row.deflection_m, exact_m, 3e-3);
+        let summary = found.summary();
+        assert!(
+            summary.contains(&format!("{:.0}", row.worst_goal_rpm)),
+            "{summary}"
+        );
+    }
+    let map = found.map.unwrap();
+    let cells = map.x.iter().flat_map(|x| map.y.iter().map(|y| [*x, *y]));
+    for cell in cells.collect::<Vec<_>>() {
+        let scene = at(&cell);
+        let small_m = deflection_m(&scene, SMALL);
+        let stiffer = |row: &&FrontSaw| small_m <= deflection_m(&at(&row.values), SMALL);
+        let rows: Vec<&FrontSaw> = found.front.iter().filter(stiffer).collect();
+        if rows.is_empty() {
+            continue;
+        }
+        let worst = worst_flutter_rpm(&scene, &[RADIUS, ANGLE]);
+        for row in rows {
+            assert!(
+                worst <= row.worst_goal_rpm * (1.0 + 1e-6),
+                "{cell:?} {worst} {row:?}"
+            );
+        }
+    }
 }
 
 /// No saw keeps the limit: the result misses it by less than any saw of a grid, all in the worst case of their

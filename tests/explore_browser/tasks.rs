@@ -417,7 +417,7 @@ fn answers_are_in_the_units_of_the_form() {
         page.compute("runup").await;
         let told = "[...document.querySelectorAll('#panel-runup .fact')].map((fact) => [...fact.children].map((part) => part.textContent))";
         let metric = page.value(told).await;
-        assert_eq!(metric[0][0], json!("largest deflection at the probe"));
+        assert_eq!(metric[0][0], json!("largest deflection of the rim"));
         let number = |told: &Value, unit: &str| -> f64 {
             let text = told[0][1].as_str().unwrap();
             text.strip_suffix(unit)

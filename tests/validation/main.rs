@@ -26,6 +26,7 @@ mod paper;
 mod paper_free_blade;
 mod published;
 mod rigid_motions;
+mod rim;
 mod run_up;
 mod saws;
 mod sensitivity;

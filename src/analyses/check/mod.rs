@@ -39,7 +39,8 @@ pub(crate) use limits::RIM_LIMIT_M_PER_S;
 pub use limits::{Limits, LimitsFile};
 pub use report::{CheckReport, Criterion, RimStiffness};
 pub(crate) use rim::{
-    point_load_plate, rim_at_cut, rim_stiffness_at_rest_n_per_m, side_force_factor,
+    point_load_plate, point_load_plate_on, rim_at_cut, rim_stiffness_at_rest_n_per_m,
+    side_force_factor,
 };
 use static_deflection::StaticDeflection;
 

@@ -20,12 +20,16 @@ const DISTANCE_ERROR: f64 = 0.1;
 /// The plate of an analysis on a basis for point loads, in which critical speeds are at least as accurate as in the
 /// analysis.
 pub(crate) fn point_load_plate(analysis: &Analysis) -> Plate {
-    let own = analysis.model.plate.resolution;
+    point_load_plate_on(&analysis.scene, analysis.model.plate.resolution)
+}
+
+/// The plate of a scene on a basis for point loads that is at least as large as another one.
+pub(crate) fn point_load_plate_on(scene: &Scene, own: Resolution) -> Plate {
     let resolution = Resolution {
         max_diameters: own.max_diameters.max(POINT_LOAD_BASIS.max_diameters),
         radial_functions: own.radial_functions.max(POINT_LOAD_BASIS.radial_functions),
     };
-    Plate::new(&analysis.scene, resolution)
+    Plate::new(scene, resolution)
 }
 
 /// The rim at the cut.

@@ -187,8 +187,8 @@ fn facts(run: &CutAtSpeed) -> Vec<String> {
         format!("{name} {:.2}", growth(entry.growth_per_s)).replace(' ', "\u{a0}")
     });
     let with = match run.stretching {
-        Some(_) => "with stretching, largest",
-        None => "largest",
+        Some(_) => "with stretching, largest at the probe",
+        None => "largest at the probe",
     };
     vec![
         format!("{with} {}", length(largest_m(run))),

@@ -8,7 +8,7 @@ use crate::model::system::GyroscopicSystem;
 use crate::modes::{Assembled, SpectrumError};
 use crate::motion::transient::{
     Gauge, Integrator, Propagator, SAMPLES, Sinusoid, State, TransientError, damped_sinusoids,
-    finite, fitted_growth, lateral_load,
+    fitted_growth, lateral_load,
 };
 use crate::stability::{CRITICAL_MARGIN, GrowingModes, critical_at};
 
@@ -57,14 +57,14 @@ impl CutHistory {
             .or_else(|| stretched.and_then(|found| found.valid_until_s))
     }
 
-    /// Largest deflections at the probe until the forces end and afterwards, while the model is valid.
+    /// Largest deflections of the rim until the forces end and afterwards, while the model is valid.
     pub fn largest_deflections_m(&self, end_s: f64) -> [Option<f64>; 2] {
         let valid_until_s = self.valid_until_s().unwrap_or(f64::INFINITY);
         let largest = |after: bool| {
-            let record = self.record.time_s.iter().zip(&self.record.deflection_m);
+            let record = self.record.time_s.iter().zip(&self.record.largest_m);
             record
                 .filter(|(time, _)| (**time > end_s) == after)
-                .fold(0.0_f64, |max, (_, w)| max.max(w.abs()))
+                .fold(0.0_f64, |max, (_, w)| max.max(*w))
         };
         let in_cut = (valid_until_s > end_s).then(|| largest(false));
         let after = self.valid_until_s().is_none().then(|| largest(true));
@@ -140,6 +140,7 @@ fn record(
     let mut record = Record {
         time_s: vec![0.0],
         deflection_m: vec![0.0],
+        largest_m: vec![0.0],
         linear_until_s: None,
     };
     let mut state = State::rest(saw.blade.order());
@@ -168,13 +169,12 @@ fn record(
             if let Some(propagator) = &propagator {
                 state = propagator.step(&state, [&[force_n], &[force_n]])?;
             }
-            let deflection = gauge.at_probe(&state.displacement);
-            if gauge.beyond(finite(deflection, run.rpm, time_s)?) {
+            let read = gauge.read(&state.displacement, run.rpm, time_s)?;
+            if gauge.beyond(read.largest_m) {
                 record.linear_until_s = Some(time_s);
                 return Ok(record);
             }
-            record.time_s.push(time_s);
-            record.deflection_m.push(deflection);
+            record.push(time_s, read);
         }
     }
     Ok(record)
@@ -223,7 +223,7 @@ fn sinusoids_in_cut(
     let mut record = vec![0.0];
     for _ in 0..count as u64 {
         state = propagator.step(&state, [&force, &force])?;
-        let deflection = gauge.at_probe(&state.displacement);
+        let deflection = gauge.at_probe_m(&state.displacement);
         record.push(deflection);
         // The fit uses only the first and the last samples, so that a long record need not be kept as a whole.
         if record.len() == 3 * SAMPLES {

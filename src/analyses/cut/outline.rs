@@ -116,14 +116,14 @@ fn remark(run: &CutAtSpeed, criterion: CutCriterion) -> String {
     }
 }
 
-/// Largest deflections at the probe in the cut and after it.
+/// Largest deflections of the rim in the cut and after it.
 fn deflections(run: &CutAtSpeed) -> Vec<Fact> {
     let model = match run.stretching {
         Some(_) => "leaves the model with stretching",
         None => "leaves the linear model",
     };
     let at = |when: &str, deflection_m: Option<f64>| -> Fact {
-        let name = format!("largest at the probe {when} at {} rpm", run.rpm);
+        let name = format!("largest of the rim {when} at {} rpm", run.rpm);
         let unknown: Value = model.into();
         let value = deflection_m.map_or(unknown, |m| LENGTH.fixed(2, m));
         Fact::new(name, value)

@@ -5,7 +5,7 @@ use std::f64::consts::TAU;
 use crate::model::plate::Plate;
 use crate::model::system::GyroscopicSystem;
 use crate::modes::{Growing, companion_eigenpairs};
-use crate::motion::transient::{Sinusoid, TransientError};
+use crate::motion::transient::{Deflections, Sinusoid, TransientError};
 use crate::stability::GrowingModes;
 
 /// Sampling interval of a record, which is short enough for a figure.
@@ -71,10 +71,21 @@ impl From<Sinusoid> for Growth {
 pub struct Record {
     /// Times of the record.
     pub time_s: Vec<f64>,
-    /// Deflection at these times.
+    /// Deflection at the probe at these times.
     pub deflection_m: Vec<f64>,
+    /// Largest magnitude of the deflection of the rim at these times.
+    pub largest_m: Vec<f64>,
     /// Time at which the deflection exceeds the linear model, and the record ends; `None` if it does not.
     pub linear_until_s: Option<f64>,
+}
+
+impl Record {
+    /// Adds a sample.
+    pub fn push(&mut self, time_s: f64, read: Deflections) {
+        self.time_s.push(time_s);
+        self.deflection_m.push(read.at_probe_m);
+        self.largest_m.push(read.largest_m);
+    }
 }
 
 /// Length of a step that resolves a growth rate.

@@ -89,13 +89,13 @@ pub struct CutAtSpeed {
     pub by_power: Option<ByPower>,
     /// Comparison of moving and stationary tooth loads.
     pub tooth_passing: ToothPassing,
-    /// Time at which the deflection at the probe exceeds the linear model and the record ends; null if it
+    /// Time at which the deflection of the rim exceeds the linear model and the record ends; null if it
     /// does not, and with stretching.
     pub linear_until_s: Option<f64>,
-    /// Largest deflection at the probe before the forces end; null if the model, linear or with stretching,
+    /// Largest deflection of the rim before the forces end; null if the model, linear or with stretching,
     /// ends earlier.
     pub largest_deflection_in_cut_m: Option<f64>,
-    /// Largest deflection at the probe after the forces end; null if the model, linear or with stretching,
+    /// Largest deflection of the rim after the forces end; null if the model, linear or with stretching,
     /// ends before the record.
     pub largest_deflection_after_m: Option<f64>,
     /// Start of the forces.

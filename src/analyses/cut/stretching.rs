@@ -6,7 +6,7 @@ use faer::{Col, Scale};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use crate::model::scene::Point;
+use crate::model::scene::{Blade, Point};
 use crate::model::system::GyroscopicSystem;
 use crate::modes::Cancellation;
 use crate::motion::stretched_blade::StretchedBlade;
@@ -75,7 +75,7 @@ fn with_modes(
         * (shapes.transpose() * lateral_load(saw.plate, &cut.teeth.standing()));
     let none = Col::zeros(load.nrows());
     let [idle, cutting] = [saw.plate, &saw.cutting].map(|plate| reduced_system(plate, &blade));
-    let mut samples = Samples::new(&blade, probe, run.speed_rad_per_s);
+    let mut samples = Samples::new(&blade, &saw.plate.blade, probe, run.speed_rad_per_s);
     let sample_s = SAMPLE_S.max((2.0 * cut.idle_s + run.duration_s) / MAX_SAMPLES);
     let mut state = State::rest(load.nrows());
     let mut start_s = 0.0;
@@ -142,14 +142,15 @@ struct Samples<'a> {
 }
 
 impl<'a> Samples<'a> {
-    fn new(blade: &'a StretchedBlade, probe: Point, speed_rad_per_s: f64) -> Self {
+    fn new(blade: &'a StretchedBlade, outline: &Blade, probe: Point, speed_rad_per_s: f64) -> Self {
         Samples {
             blade,
-            probe: StretchedProbe::new(blade, probe),
+            probe: StretchedProbe::new(blade, outline, probe),
             speed_rad_per_s,
             record: Record {
                 time_s: vec![0.0],
                 deflection_m: vec![0.0],
+                largest_m: vec![0.0],
                 linear_until_s: None,
             },
             looked_s: 0.0,
@@ -209,9 +210,7 @@ impl<'a> Samples<'a> {
                 return false;
             }
         }
-        self.record.time_s.push(time_s);
-        let deflection_m = self.probe.deflection_m(state, speed);
-        self.record.deflection_m.push(deflection_m);
+        self.record.push(time_s, self.probe.read(state));
         true
     }
 }
@@ -289,7 +288,7 @@ mod tests {
             radius_m: 0.4,
             angle_deg: 0.0,
         };
-        let mut samples = Samples::new(&blade, probe, speed);
+        let mut samples = Samples::new(&blade, &plate.blade, probe, speed);
         let phase = Phase {
             system: &system,
             load: &load,

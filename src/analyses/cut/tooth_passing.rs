@@ -19,7 +19,7 @@ use crate::model::scene::{Point, Tooth, rad_per_s};
 use crate::model::system::GyroscopicSystem;
 use crate::modes::{Growing, SpectrumError};
 use crate::motion::transient::{
-    Gauge, Integrator, Propagator, ReducedBlade, State, TransientError, finite, lateral_load,
+    Gauge, Integrator, Propagator, ReducedBlade, State, TransientError, lateral_load,
 };
 
 use super::record::Growth;
@@ -38,10 +38,10 @@ pub struct ToothPassing {
     pub mean_growth_per_s: f64,
     /// Growth under the moving loads, from Floquet multipliers.
     pub passing_growth_per_s: f64,
-    /// Largest deflection at the probe in the cut under stationary loads; null if the linear model ends
+    /// Largest deflection of the rim in the cut under stationary loads; null if the linear model ends
     /// before the cut.
     pub standing_deflection_m: Option<f64>,
-    /// Largest deflection at the probe in the cut under moving loads.
+    /// Largest deflection of the rim in the cut under moving loads.
     pub passing_deflection_m: Option<f64>,
 }
 
@@ -164,7 +164,7 @@ impl<'a> MovingLoads<'a> {
         Ok(logarithm / (self.step_s() * stages.len() as f64))
     }
 
-    /// Largest deflection at the probe in m while the cut lasts; `None` if it is beyond the linear model.
+    /// Largest deflection of the rim in m while the cut lasts; `None` if it is beyond the linear model.
     fn largest_deflection(
         &self,
         stages: &[Propagator],
@@ -177,12 +177,12 @@ impl<'a> MovingLoads<'a> {
         let mut largest = 0.0_f64;
         for step in 0..steps {
             state = stages[step % stages.len()].step(&state, [&force, &force])?;
-            let deflection = gauge.at_probe(&state.displacement);
             let time_s = (step + 1) as f64 * self.step_s();
-            if gauge.beyond(finite(deflection, run.rpm, time_s)?) {
+            let read = gauge.read(&state.displacement, run.rpm, time_s)?;
+            if gauge.beyond(read.largest_m) {
                 return Ok(None);
             }
-            largest = largest.max(deflection.abs());
+            largest = largest.max(read.largest_m);
         }
         Ok(Some(largest))
     }

@@ -109,7 +109,7 @@ fn one_digit(value: f64) -> String {
 fn moving_loads_deflect(run: &CutAtSpeed, thickness_m: f64) -> Option<String> {
     if run.stretching.is_some() {
         return run.tooth_passing.passing_deflection_m.is_none().then(|| format!(
-            "at {:.0} rpm the moving tooth loads, which are computed without stretching, deflect the blade at the probe by more than {LINEAR_THICKNESSES} thicknesses of the blade ({:.1} mm); the record with stretching has stationary loads",
+            "at {:.0} rpm the moving tooth loads, which are computed without stretching, deflect the rim by more than {LINEAR_THICKNESSES} thicknesses of the blade ({:.1} mm); the record with stretching has stationary loads",
             run.rpm,
             1e3 * LINEAR_THICKNESSES * thickness_m
         ));
@@ -117,7 +117,7 @@ fn moving_loads_deflect(run: &CutAtSpeed, thickness_m: f64) -> Option<String> {
     let alone = run.linear_until_s.is_none() && run.tooth_passing.passing_deflection_m.is_none();
     alone.then(|| {
         format!(
-            "at {:.0} rpm the moving tooth loads deflect the blade at the probe by more than {LINEAR_THICKNESSES} thicknesses of the blade ({:.1} mm), beyond the linear model; stationary loads do not",
+            "at {:.0} rpm the moving tooth loads deflect the rim by more than {LINEAR_THICKNESSES} thicknesses of the blade ({:.1} mm), beyond the linear model; stationary loads do not",
             run.rpm,
             1e3 * LINEAR_THICKNESSES * thickness_m
         )
@@ -145,7 +145,7 @@ fn large_deflection(run: &CutAtSpeed, thickness_m: f64) -> Option<String> {
     }
     if let Some(until_s) = run.linear_until_s {
         return Some(format!(
-            "at {:.0} rpm the deflection at the probe exceeds {LINEAR_THICKNESSES} thicknesses of the blade ({:.1} mm) {}: the linear model ends there, and the record with it; the growth rate of small motions remains right",
+            "at {:.0} rpm the deflection of the rim exceeds {LINEAR_THICKNESSES} thicknesses of the blade ({:.1} mm) {}: the linear model ends there, and the record with it; the growth rate of small motions remains right",
             run.rpm,
             1e3 * LINEAR_THICKNESSES * thickness_m,
             moment(run, until_s),

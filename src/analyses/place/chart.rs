@@ -1,22 +1,28 @@
 //! The goal over one or two numbers of a guide, with marks for the best saw and for the saw that is best at its
 //! nominal numbers.
 
-use super::{Goal, GoalMap, PlaceReport, PlacedParameter};
+use super::{FrontSaw, Goal, GoalMap, PlaceReport, PlacedParameter};
 use crate::analyses::scene_axis::Along;
 use crate::analyses::scene_number::in_words;
 use crate::page::figure::axis::{Spread, extremes};
 use crate::page::figure::chart_data::{AxisData, ChartData, PanelData};
 use crate::page::figure::items::{Area, Heat, Item, Line, Points, Shape};
 use crate::page::figure::palette::{Hue, LOW_TO_HIGH};
+use crate::page::figure::style::CURVE;
 
 /// Heights of the panel for two numbers and for one, relative to one of usual height.
 const SHARES: [f64; 2] = [1.45, 1.0];
+/// Height of the panel of the front.
+const FRONT_SHARE: f64 = 0.7;
+const FRONT_SIZE: f64 = 6.0;
+/// Room around the points of the front, as a share of their range.
+const FRONT_ROOM: f64 = 0.1;
 const BEST_SIZE: f64 = 18.0;
 const CROSS_SIZE: f64 = 10.0;
 const SCENE_SIZE: f64 = 10.0;
 const FRAGILE_SIZE: f64 = 12.0;
 
-/// The map, as numbers; `None` if the report contains none.
+/// The map, as numbers, and the front below it; `None` if the report contains no map.
 pub fn chart(report: &PlaceReport) -> Option<ChartData> {
     let map = report.map.as_ref()?;
     let (title, goal) = match report.goal {
@@ -31,9 +37,51 @@ pub fn chart(report: &PlaceReport) -> Option<ChartData> {
         Some(path) => over_two(report, map, x, Along::of_cells(path, &map.y)),
         None => over_one(report, map, x, goal),
     };
+    let panels = [panel].into_iter().chain(front(report, goal)).collect();
     Some(ChartData {
         key: key(report, map),
-        ..ChartData::new(title, facts(report), vec![panel])
+        ..ChartData::new(title, facts(report), panels)
+    })
+}
+
+/// The worst case of the goal over the deflection at the cut; `None` for a single saw.
+fn front(report: &PlaceReport, goal: &str) -> Option<PanelData> {
+    let [_, .., last] = report.front.as_slice() else {
+        return None;
+    };
+    let at = |saw: &FrontSaw| [1e3 * saw.deflection_m, saw.worst_goal_rpm];
+    let name = format!("worst {goal} within the tolerances");
+    let all = report.front.iter().map(at);
+    let line = Line {
+        width: 0.75 * CURVE,
+        ..Line::new(all.clone(), Hue::Forward, &name)
+    };
+    let said = report.front.iter().map(|saw| {
+        let numbers = report.parameters.iter().zip(&saw.values);
+        let words = numbers.map(|(p, value)| in_words(&p.path, *value));
+        words.collect::<Vec<_>>().join(", ")
+    });
+    let points = Points {
+        said: said.collect(),
+        ..Points::new(all, Hue::Forward, FRONT_SIZE, &name)
+    };
+    let answer = Points {
+        shape: Shape::Ring,
+        ..Points::new([at(last)], Hue::Alarm, BEST_SIZE, "best in the worst case")
+    };
+    let items = vec![Item::Line(line), Item::Points(points), Item::Points(answer)];
+    let worst = report.front.iter().map(|saw| saw.worst_goal_rpm);
+    let [low, high] = range(&[worst.collect()]);
+    let room = FRONT_ROOM * (high - low);
+    let [largest_mm, _] = at(last);
+    Some(PanelData {
+        share: FRONT_SHARE,
+        ..PanelData::new(
+            AxisData::new("deflection at the cut at the operating speed", "mm")
+                .within([0.0, (1.0 + FRONT_ROOM) * largest_mm]),
+            AxisData::new(&format!("worst {goal}"), "rpm").within([low - room, high + room]),
+            items,
+        )
     })
 }
 
@@ -232,7 +280,7 @@ fn key(report: &PlaceReport, map: &GoalMap) -> Vec<Item> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::analyses::place::{FragileOptimum, Neighbour, Outcome, PlaceCertificate};
+    use crate::analyses::place::{FragileOptimum, FrontSaw, Neighbour, Outcome, PlaceCertificate};
     use crate::model::scene::Scene;
     use crate::page::figure::layout::sheet;
     use crate::page::figure::tidiness::texts;
@@ -303,6 +351,22 @@ mod tests {
                 saw: neighbour(2400.0, [0.21, 5e6]),
                 worst: neighbour(1900.0, [0.212, 5e6]),
             }),
+            front: vec![
+                FrontSaw {
+                    values: vec![0.3, 2e7],
+                    flutter_rpm: Some(2100.0),
+                    critical_rpm: Some(1700.0),
+                    worst_goal_rpm: 2040.0,
+                    deflection_m: 2e-5,
+                },
+                FrontSaw {
+                    values: vec![0.25, 2e7],
+                    flutter_rpm: Some(2300.0),
+                    critical_rpm: Some(1600.0),
+                    worst_goal_rpm: 2093.0,
+                    deflection_m: 3e-5,
+                },
+            ],
             almost: Vec::new(),
             map: Some(GoalMap {
                 x_path: "guides[0].radius_m".into(),
@@ -339,6 +403,8 @@ mod tests {
             );
             assert!(all.iter().any(|text| text.contains("[mm]")), "{all:?}");
             assert!(all.iter().any(|text| text.contains("fragile")), "{all:?}");
+            let goal = all.iter().any(|text| text.contains("worst flutter speed"));
+            assert!(goal, "{all:?}");
         }
         let without = PlaceReport {
             map: None,

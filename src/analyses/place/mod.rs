@@ -28,7 +28,9 @@
 pub(crate) mod chart;
 mod choice;
 mod demands;
+mod deviation;
 mod error;
+mod front;
 mod map;
 mod neighbours;
 mod outcome;
@@ -55,7 +57,7 @@ use map::Mapped;
 use neighbours::Neighbours;
 use outcome::{Computed, IDLE, Question, REFUSED};
 pub use report::{
-    FragileOptimum, Goal, GoalMap, Neighbour, Outcome, PlaceCertificate, PlaceReport,
+    FragileOptimum, FrontSaw, Goal, GoalMap, Neighbour, Outcome, PlaceCertificate, PlaceReport,
     PlacedParameter,
 };
 use search::{Search, Tried, cheapest};
@@ -107,12 +109,17 @@ pub fn place(
     }
     let typed: Vec<f64> = freed.iter().map(|f| f.share_of(scene.file())).collect();
     let coarse = Search::new(scene.file(), &freed, question.clone());
-    let Looked { candidates, map } = look_everywhere(&coarse, &typed, options, progress)?;
+    let Looked {
+        candidates,
+        traded,
+        map,
+    } = look_everywhere(&coarse, &typed, options, progress)?;
     if options.resolution.is_none() {
         question.resolution = basis_of_all(scene, &freed, &candidates, question.range)?;
     }
     let fine = Search::new(scene.file(), &freed, question.clone());
-    let settled = settle(&fine, &candidates, options.refine / SETTLED, progress);
+    let all_candidates = [&candidates[..], &traded].concat();
+    let settled = settle(&fine, &all_candidates, options.refine / SETTLED, progress);
     let answer = question.ask(scene)?;
     let own = exact_shares(scene, &freed)?;
     let before = Weighed::new(&fine, own, answer);
@@ -122,6 +129,7 @@ pub fn place(
         improved,
     } = Choice::between(&fine, scene, settled, &before)?;
     let fragile_optimum = fragile_optimum(&fine, &best);
+    let front = front::front(&fine, &traded, &best, question.resolution);
     Cancellation::current().check()?;
     let tally = all.tally().and(coarse.tally()).and(fine.tally());
     let threshold_per_s = placed.flutter_threshold_per_s();
@@ -138,7 +146,9 @@ pub fn place(
         max_deflection_m: demands.gap.and_then(|gap| gap.max_deflection_m),
         force_n: demands
             .gap
-            .and_then(|gap| gap.max_deflection_m.map(|_| scene.file().side_force_n())),
+            .and_then(|gap| gap.max_deflection_m)
+            .or(front.first().map(|saw| saw.deflection_m))
+            .map(|_| scene.file().side_force_n()),
         kept: best.neighbours.keep_limit(),
         improved,
         from_rpm: rpm(question.range.from_rad_per_s),
@@ -161,6 +171,7 @@ pub fn place(
         almost: best.neighbours.almost.iter().map(listed).collect(),
         worst_neighbour: Some(best.neighbours.worst),
         fragile_optimum,
+        front,
         map,
         saws: tally.saws,
         failed_saws: tally.failed,
@@ -232,6 +243,8 @@ struct Looked {
     /// within their tolerances, and the samples and cells that are best at their nominal numbers, because the finer
     /// basis may move a jump past a saw, or away from it.
     candidates: Vec<Tried>,
+    /// Saws that deflect less at the cut than the best one.
+    traded: Vec<Tried>,
     map: Option<GoalMap>,
 }
 
@@ -267,6 +280,7 @@ fn look_everywhere(
     let of_map = search.most_robust(&cells, 1, 0.0).pop();
     let better = of_map.filter(|cell| cell.cost < best.cost);
     candidates.extend(better.map(|cell| refined(&cell)));
+    let traded = front::within_limits(search, &best);
     candidates.extend(starts);
     candidates.extend(search.cheapest());
     candidates.extend(tried.iter().find(|one| one.shares == own).cloned());
@@ -275,7 +289,11 @@ fn look_everywhere(
     candidates.retain(|one| one.cost < REFUSED);
     candidates.sort_by(|x, y| x.cost.total_cmp(&y.cost));
     candidates.dedup_by(|x, y| x.shares == y.shares);
-    Ok(Looked { candidates, map })
+    Ok(Looked {
+        candidates,
+        traded,
+        map,
+    })
 }
 
 /// Divides the free numbers into those that move a critical speed or a band, and the others.

@@ -7,6 +7,7 @@ use crate::stability::{
     Certificate, Evidence, Instability, flutter_onsets, resolved, search_bands,
 };
 
+use super::deviation::linear_deviation_m;
 use super::{Demands, Outcome, Tolerances};
 
 /// A saw of a search.
@@ -17,6 +18,9 @@ pub struct Computed {
     pub value_rad_per_s: f64,
     /// Sum of the shares by which limits are missed; zero if they are kept.
     short: f64,
+    /// Deflection at the cut at the operating speed: that of the limit, or with linear guides on the basis of the search. `None` in a
+    /// band, and where it is unknown.
+    pub deviation_m: Option<f64>,
     /// All bands of the sweep.
     pub bands: Vec<Instability>,
     /// Certificate of this list of bands.
@@ -73,6 +77,10 @@ impl Question {
                 (found, beyond)
             }
         };
+        let deviation_m = match demands.gap {
+            None => linear_deviation_m(scene, &saw.plate),
+            Some(_) => deflection_m,
+        };
         let found = search_bands(saw, critical, self.range)?;
         let (bands, certificate) = (found.instabilities, found.certificate);
         let threshold = scene.flutter_threshold_per_s();
@@ -90,6 +98,13 @@ impl Question {
             None => flutter.unwrap_or(self.range.to_rad_per_s),
             Some(_) => window.map_or(0.0, |range| range.width()),
         };
+        let is_in_band = |speed: f64| {
+            let mut ends = bands.iter().map(|b| b.from_rad_per_s..=b.to_rad_per_s);
+            ends.any(|band| band.contains(&speed))
+        };
+        let is_stable = scene
+            .operating_rad_per_s()
+            .is_some_and(|speed| !is_in_band(speed));
         let short = too_low + beyond;
         Ok(Computed {
             outcome: Outcome {
@@ -101,6 +116,7 @@ impl Question {
                 kept: short == 0.0,
             },
             value_rad_per_s,
+            deviation_m: deviation_m.filter(|_| is_stable),
             short,
             bands,
             certificate,

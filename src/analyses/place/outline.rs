@@ -34,6 +34,7 @@ pub fn outline(report: &PlaceReport) -> Outline {
     if let Some(fragile) = &report.fragile_optimum {
         text.sentence(fragile_optimum(report, fragile, goal));
     }
+    front(&mut text, report, goal);
     for band in &report.almost {
         text.sentence(format!(
             "A band from {:.0} rpm grows by {:.2} 1/s, the threshold is {} 1/s: if the growth reached it, this would be the flutter speed",
@@ -128,6 +129,42 @@ fn neighbours(text: &mut Outline, report: &PlaceReport, goal: &str) {
         "Worst case of the tolerances, one by one and all together: {worst:.0} of {:.0} rpm: {verdict}",
         report.best.goal_rpm
     ));
+}
+
+/// Adds the saws that trade the goal against the deflection at the cut.
+fn front(text: &mut Outline, report: &PlaceReport, goal: &str) {
+    let [first, .., last] = report.front.as_slice() else {
+        return;
+    };
+    let force = report.force_n.map(short).unwrap_or_default();
+    let rpm = report.scene.operating_rpm.map(short).unwrap_or_default();
+    text.sentence(format!(
+        "A blade that deflects by {} mm instead of {} mm at the cut, under {force} N at {rpm} rpm, has a worst {goal} of {:.0} instead of {:.0} rpm",
+        shown_to(3, 1e3 * first.deflection_m),
+        shown_to(3, 1e3 * last.deflection_m),
+        first.worst_goal_rpm,
+        last.worst_goal_rpm,
+    ));
+    let columns = [
+        Column::of("deflection", &LENGTH),
+        Column::of("worst", &SPEED),
+        Column::of("flutter", &SPEED),
+        Column::of("critical", &SPEED),
+        Column::words("numbers, in their order"),
+    ];
+    let rows = report.front.iter().map(|saw| {
+        let speed = |rpm: Option<f64>| SPEED.fixed(0, rpm).or("none");
+        let values: Vec<String> = saw.values.iter().map(|value| short(*value)).collect();
+        [
+            LENGTH.digits(3, saw.deflection_m),
+            SPEED.fixed(0, saw.worst_goal_rpm),
+            speed(saw.flutter_rpm),
+            speed(saw.critical_rpm),
+            values.join(", ").into(),
+        ]
+    });
+    let title = format!("Worst {goal} against deflection at the cut");
+    text.table(Table::new(title, columns).with_rows(rows));
 }
 
 /// Describes the saw that is better than the best at its nominal numbers and worse in the worst case of the

@@ -32,7 +32,7 @@ pub struct PlaceReport {
     /// Upper limit of the deflection at the cut, if there is one.
     #[serde(default)]
     pub max_deflection_m: Option<f64>,
-    /// Side force for this limit.
+    /// Side force for this limit and for the deflections of the front; null without both.
     #[serde(default)]
     pub force_n: Option<f64>,
     /// Whether the best saw keeps the limits in the worst case of its tolerances.
@@ -70,6 +70,11 @@ pub struct PlaceReport {
     /// The saw with the best nominal goal, if it is better than the best saw and worse within its tolerances;
     /// null otherwise.
     pub fragile_optimum: Option<FragileOptimum>,
+    /// Saws that trade the goal, in the worst case of their tolerances, against the deflection at the cut at the operating speed, those
+    /// that deflect least first; of the saws tried none with a smaller deflection has a better worst case. Empty if the deflection of
+    /// the best saw is unknown: without an operating speed, in a band, and if rigid motions are free.
+    #[serde(default)]
+    pub front: Vec<FrontSaw>,
     /// Bands that nearly reach the threshold and begin below the flutter speed.
     pub almost: Vec<InstabilityBand>,
     /// The goal over two numbers, on the coarse basis of the search.
@@ -169,6 +174,23 @@ pub struct FragileOptimum {
     pub saw: Neighbour,
     /// Worst neighbour of this saw within the tolerances.
     pub worst: Neighbour,
+}
+
+/// A saw of the front.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+#[schemars(rename = "FrontSawEntry")]
+pub struct FrontSaw {
+    /// Values of the numbers, in their order.
+    pub values: Vec<f64>,
+    /// Flutter speed; null if it exceeds the sweep.
+    pub flutter_rpm: Option<f64>,
+    /// First critical speed.
+    pub critical_rpm: Option<f64>,
+    /// The goal in the worst case of the tolerances.
+    pub worst_goal_rpm: f64,
+    /// Deflection at the cut under the side force at the operating speed, as an absolute value.
+    pub deflection_m: f64,
 }
 
 /// A saw whose numbers deviate from another one by the tolerances.

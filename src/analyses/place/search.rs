@@ -65,6 +65,15 @@ impl Tried {
         Tried { shares, cost }
     }
 
+    /// Order by cost. Ties are decided by the shares, since the order of a hash map is random.
+    fn cheaper(&self, other: &Self) -> Ordering {
+        let by_shares = || {
+            let pair = self.shares.partial_cmp(&other.shares);
+            pair.unwrap_or(Ordering::Equal)
+        };
+        self.cost.total_cmp(&other.cost).then_with(by_shares)
+    }
+
     /// Whether the shares are at a distance from those of some others.
     pub fn is_apart(&self, others: &[Tried], distance: f64) -> bool {
         others.iter().all(|other| {
@@ -142,11 +151,25 @@ impl<'a> Search<'a> {
             let cost = found.as_ref().ok().filter(|_| is_inside)?.cost();
             Some(Tried { shares, cost })
         });
-        // Ties are decided by the shares, since the order of the hash map is random.
-        all.min_by(|x, y| {
-            let by_shares = || x.shares.partial_cmp(&y.shares).unwrap_or(Ordering::Equal);
-            x.cost.total_cmp(&y.cost).then_with(by_shares)
-        })
+        all.min_by(Tried::cheaper)
+    }
+
+    /// The saws within the bounds that keep the limits and whose deflection at the cut is known, with it, sorted by nominal cost.
+    pub fn deviating(&self) -> Vec<(Tried, f64)> {
+        let known = self.known();
+        let all = known.iter().filter_map(|(key, found)| {
+            let shares: Vec<f64> = key.iter().map(|bits| f64::from_bits(*bits)).collect();
+            let is_inside = shares.iter().all(|share| (0.0..=1.0).contains(share));
+            let saw = found
+                .as_ref()
+                .ok()
+                .filter(|saw| is_inside && saw.outcome.kept)?;
+            let cost = saw.cost();
+            Some((Tried { shares, cost }, saw.deviation_m?))
+        });
+        let mut all: Vec<_> = all.collect();
+        all.sort_by(|(x, _), (y, _)| x.cheaper(y));
+        all
     }
 
     /// Computes `count` saws on all threads and returns, in their order, the values that `kept` makes of shares and

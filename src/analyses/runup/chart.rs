@@ -11,7 +11,11 @@ use crate::page::figure::style::CURVE;
 /// The deflection, critical speeds and bands.
 pub fn chart(report: &RunUpReport) -> ChartData {
     let speeds = [report.from_rpm, report.to_rpm];
-    let reach = 1.1e3 * report.largest_deflection_m.max(1e-9);
+    let largest_m = report
+        .deflection_m
+        .iter()
+        .fold(1e-9_f64, |m, w| m.max(w.abs()));
+    let reach = 1.1e3 * largest_m;
     let bands = report
         .bands
         .iter()

@@ -78,9 +78,7 @@ pub fn runup(scene: &Scene, progress: Progress<'_>) -> Result<RunUpReport, Trans
             band,
         })
         .collect();
-    let deflections = history.deflection_m.iter().zip(&record_rpm);
-    let largest = deflections.max_by(|x, y| x.0.abs().total_cmp(&y.0.abs()));
-    let (largest_m, largest_rpm) = largest.map_or((0.0, 0.0), |(w, rpm)| (w.abs(), *rpm));
+    let (largest_m, largest_rad_per_s) = history.largest;
     Ok(RunUpReport {
         sawflutter: chart.sawflutter,
         scene: scene.file().clone(),
@@ -96,7 +94,7 @@ pub fn runup(scene: &Scene, progress: Progress<'_>) -> Result<RunUpReport, Trans
         rpm: record_rpm,
         deflection_m: history.deflection_m,
         largest_deflection_m: largest_m,
-        largest_deflection_rpm: largest_rpm,
+        largest_deflection_rpm: rpm(largest_rad_per_s),
         critical_speeds: chart.critical_speeds,
         first_doubling_rpm: first_doubling_rpm(&bands),
         bands,

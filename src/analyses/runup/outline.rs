@@ -15,7 +15,7 @@ pub fn outline(report: &RunUpReport) -> Outline {
     let largest = LENGTH.fixed(2, report.largest_deflection_m);
     let at = SPEED.fixed(0, report.largest_deflection_rpm);
     let mut facts = vec![
-        Fact::new("largest deflection at the probe", largest),
+        Fact::new("largest deflection of the rim", largest),
         Fact::new("at a speed of", at),
     ];
     if let Some(rpm) = report.first_doubling_rpm {
@@ -57,7 +57,7 @@ fn verdict(report: &RunUpReport) -> String {
         },
         (None, None) => "within the linear model".to_owned(),
         (Some(rpm), _) => format!(
-            "valid up to about {:.0} rpm, where the deflection at the probe exceeds {LINEAR_THICKNESSES} thicknesses of the blade ({:.1} mm) and the linear model ends",
+            "valid up to about {:.0} rpm, where the deflection of the rim exceeds {LINEAR_THICKNESSES} thicknesses of the blade ({:.1} mm) and the linear model ends",
             10.0 * (0.1 * rpm).round(),
             1e3 * report.linear_limit_m
         ),

@@ -33,13 +33,13 @@ pub struct RunUpReport {
     pub step_s: f64,
     /// Largest deflection that is given; beyond it the linear model is not valid.
     pub linear_limit_m: f64,
-    /// Speed at which the deflection at the probe exceeds this limit and the record ends; null if it does not.
+    /// Speed at which the deflection of the rim exceeds this limit and the record ends; null if it does not.
     pub linear_until_rpm: Option<f64>,
     /// Speeds of the record.
     pub rpm: Vec<f64>,
     /// Deflection at the probe.
     pub deflection_m: Vec<f64>,
-    /// Largest magnitude of the deflection at the probe.
+    /// Largest magnitude of the deflection of the rim, or of the probe if that is larger.
     #[serde(default)]
     pub largest_deflection_m: f64,
     /// Speed of the largest deflection.

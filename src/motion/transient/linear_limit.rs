@@ -9,6 +9,7 @@ use crate::model::plate::Plate;
 use crate::model::scene::{Blade, Point};
 
 use super::TransientError;
+use super::deflections::{Deflections, Reader};
 use super::reduced_blade::{ReducedBlade, at_point};
 
 /// Deflections beyond this many thicknesses of the blade are not reported.
@@ -19,38 +20,44 @@ pub fn linear_limit_m(blade: &Blade) -> f64 {
     LINEAR_THICKNESSES * blade.thickness_range_m()[0]
 }
 
-/// Deflection at the probe of a motion on a reduced basis, and the limit of the linear model.
+/// Deflections of a motion on a reduced basis, and the limit of the linear model.
 #[derive(Debug)]
 pub(crate) struct Gauge {
-    probe: Col<f64>,
+    reader: Reader,
     limit_m: f64,
 }
 
 impl Gauge {
     pub fn new(plate: &Plate, blade: &ReducedBlade, probe: Point) -> Self {
+        let shapes_at = |place| blade.vector(&at_point(plate, place));
         Gauge {
-            probe: blade.vector(&at_point(plate, probe.polar())),
+            reader: Reader::new(&plate.blade, probe, shapes_at),
             limit_m: linear_limit_m(&plate.blade),
         }
     }
 
     /// Deflection at the probe in m, from the coordinates on the basis.
-    pub fn at_probe(&self, displacement: &Col<f64>) -> f64 {
-        let pairs = self.probe.iter().zip(displacement.iter());
-        pairs.map(|(c, q)| c * q).sum()
+    pub fn at_probe_m(&self, displacement: &Col<f64>) -> f64 {
+        self.reader.at_probe_m(displacement)
+    }
+
+    /// Deflections of the coordinates on the basis at a time; refuses those that have overflowed.
+    pub fn read(
+        &self,
+        displacement: &Col<f64>,
+        rpm: f64,
+        time_s: f64,
+    ) -> Result<Deflections, TransientError> {
+        let read = self.reader.read(displacement);
+        if read.largest_m.is_finite() {
+            Ok(read)
+        } else {
+            Err(TransientError::Overflow { rpm, time_s })
+        }
     }
 
     /// Whether a deflection is outside the linear model.
     pub fn beyond(&self, deflection_m: f64) -> bool {
         deflection_m.abs() > self.limit_m
-    }
-}
-
-/// Refuses a deflection that has overflowed at a time.
-pub(crate) fn finite(value: f64, rpm: f64, time_s: f64) -> Result<f64, TransientError> {
-    if value.is_finite() {
-        Ok(value)
-    } else {
-        Err(TransientError::Overflow { rpm, time_s })
     }
 }

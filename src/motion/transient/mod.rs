@@ -9,6 +9,7 @@
 //! speed rises.
 
 mod band_growth;
+mod deflections;
 mod linear_limit;
 mod motion;
 mod newmark;
@@ -22,7 +23,8 @@ mod stretched_runup;
 mod stretching;
 
 pub(crate) use band_growth::band_exponents;
-pub(crate) use linear_limit::{Gauge, LINEAR_THICKNESSES, finite, linear_limit_m};
+pub(crate) use deflections::Deflections;
+pub(crate) use linear_limit::{Gauge, LINEAR_THICKNESSES, linear_limit_m};
 pub(crate) use motion::{Force, Integrator, State};
 pub(crate) use newmark::Newmark;
 pub(crate) use propagator::Propagator;
@@ -74,7 +76,7 @@ pub enum TransientError {
     },
     /// The force of a run-up deflects the blade beyond the linear model at once.
     #[error(
-        "side_force.force_n is {force_n}, which alone bends the blade at the probe by more than {LINEAR_THICKNESSES} thicknesses, where the linear model ends; give a smaller force"
+        "side_force.force_n is {force_n}, which alone bends the blade by more than {LINEAR_THICKNESSES} thicknesses, where the linear model ends; give a smaller force"
     )]
     BentByForce {
         /// Constant side force.

@@ -10,7 +10,7 @@ use crate::model::system::GyroscopicSystem;
 use crate::modes::Cancellation;
 use crate::modes::branches::Progress;
 
-use super::linear_limit::{Gauge, finite};
+use super::linear_limit::Gauge;
 use super::reduced_blade::{ReducedBlade, Snapshot, at_point};
 use super::{Force, Integrator, Newmark, State, TransientError};
 
@@ -21,6 +21,8 @@ pub(crate) struct RunUpHistory {
     pub speed_rad_per_s: Vec<f64>,
     /// Deflection at the probe.
     pub deflection_m: Vec<f64>,
+    /// Largest magnitude of the deflection of the rim, and its speed in rad/s.
+    pub largest: (f64, f64),
     /// Speed at which the deflection exceeds the linear model, and the record ends; `None` if it does not.
     pub linear_until_rad_per_s: Option<f64>,
     /// Time step.
@@ -80,6 +82,7 @@ pub fn run_up(
     let mut history = RunUpHistory {
         speed_rad_per_s: Vec::new(),
         deflection_m: Vec::new(),
+        largest: (0.0, from),
         linear_until_rad_per_s: None,
         step_s: steps.step_s,
     };
@@ -182,14 +185,16 @@ impl RunUpHistory {
         state: &State,
         (speed_rad_per_s, time_s): (f64, f64),
     ) -> Result<bool, TransientError> {
-        let read = gauge.at_probe(&state.displacement);
-        let deflection = finite(read, rpm(speed_rad_per_s), time_s)?;
-        if gauge.beyond(deflection) {
+        let read = gauge.read(&state.displacement, rpm(speed_rad_per_s), time_s)?;
+        if gauge.beyond(read.largest_m) {
             self.linear_until_rad_per_s = Some(speed_rad_per_s);
             return Ok(false);
         }
         self.speed_rad_per_s.push(speed_rad_per_s);
-        self.deflection_m.push(deflection);
+        self.deflection_m.push(read.at_probe_m);
+        if read.largest_m > self.largest.0 {
+            self.largest = (read.largest_m, speed_rad_per_s);
+        }
         Ok(true)
     }
 }

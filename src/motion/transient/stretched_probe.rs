@@ -1,24 +1,25 @@
 //! Readings of a moving blade that stretches.
 
-use crate::model::scene::{Point, Polar};
+use crate::model::scene::{Blade, Point};
 use crate::motion::stretched_blade::{Equilibrium, LARGEST_SLOPE, StretchedBlade};
 
 use super::State;
+use super::deflections::{Deflections, Reader};
 
-/// The deflection at a probe, and the check that slopes are within the model.
+/// The deflections at a probe and around the rim, and the check that slopes are within the model.
 pub(crate) struct StretchedProbe<'a> {
     blade: &'a StretchedBlade,
-    probe: Point,
+    reader: Reader,
     /// Largest slope of the blade so far.
     pub largest_slope: f64,
 }
 
 impl<'a> StretchedProbe<'a> {
     /// The probe before the first sample.
-    pub fn new(blade: &'a StretchedBlade, probe: Point) -> Self {
+    pub fn new(blade: &'a StretchedBlade, outline: &Blade, probe: Point) -> Self {
         StretchedProbe {
             blade,
-            probe,
+            reader: Reader::new(outline, probe, |place| blade.shapes_at(place)),
             largest_slope: 0.0,
         }
     }
@@ -30,14 +31,9 @@ impl<'a> StretchedProbe<'a> {
         slope <= LARGEST_SLOPE
     }
 
-    /// Deflection at the probe, in m.
-    pub fn deflection_m(&self, state: &State, speed_rad_per_s: f64) -> f64 {
-        let at = shape(state, speed_rad_per_s);
-        let Polar {
-            radius_m,
-            angle_rad,
-        } = self.probe.polar();
-        self.blade.deflection_m(&at, radius_m, angle_rad)
+    /// Deflections at the probe and around the rim.
+    pub fn read(&self, state: &State) -> Deflections {
+        self.reader.read(&state.displacement)
     }
 }
 

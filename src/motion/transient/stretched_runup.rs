@@ -78,9 +78,10 @@ pub fn stretched_run_up(
     let steps = Steps::new(runup, highest_rad_per_s);
     let begun = State::still(blade.settled(from, &blade.flat())?.coordinates);
     let mut samples = Samples {
-        probe: StretchedProbe::new(&blade, probe),
+        probe: StretchedProbe::new(&blade, &plate.blade, probe),
         speed_rad_per_s: Vec::new(),
         deflection_m: Vec::new(),
+        largest: (0.0, from),
         valid_until_rad_per_s: None,
     };
     steps.integrate(&moving, begun, (STRIDE, progress), |state, (speed, _)| {
@@ -98,6 +99,7 @@ pub fn stretched_run_up(
         history: RunUpHistory {
             speed_rad_per_s: thinned(&samples.speed_rad_per_s),
             deflection_m: thinned(&samples.deflection_m),
+            largest: samples.largest,
             linear_until_rad_per_s: None,
             step_s: steps.step_s,
         },
@@ -113,6 +115,8 @@ struct Samples<'a> {
     probe: StretchedProbe<'a>,
     speed_rad_per_s: Vec<f64>,
     deflection_m: Vec<f64>,
+    /// Largest magnitude of the deflection of the rim, and its speed.
+    largest: (f64, f64),
     valid_until_rad_per_s: Option<f64>,
 }
 
@@ -125,8 +129,11 @@ impl Samples<'_> {
             return false;
         }
         self.speed_rad_per_s.push(speed_rad_per_s);
-        let deflection_m = self.probe.deflection_m(state, speed_rad_per_s);
-        self.deflection_m.push(deflection_m);
+        let read = self.probe.read(state);
+        self.deflection_m.push(read.at_probe_m);
+        if read.largest_m > self.largest.0 {
+            self.largest = (read.largest_m, speed_rad_per_s);
+        }
         true
     }
 
