@@ -202,7 +202,7 @@ impl<'a> Samples<'a> {
         let speed = self.speed_rad_per_s;
         if time_s >= self.looked_s + LOOK_S {
             self.looked_s = time_s;
-            let holds = self.probe.holds(state, speed);
+            let holds = self.probe.holds(state);
             self.found.largest_slope = self.probe.largest_slope;
             if !holds {
                 self.found.valid_until_s = Some(time_s);

@@ -1,7 +1,7 @@
 //! Readings of a moving blade that stretches.
 
 use crate::model::scene::{Point, Polar};
-use crate::motion::stretched_blade::{Equilibrium, LARGEST_SLOPE, StretchedBlade};
+use crate::motion::stretched_blade::{Equilibrium, LARGEST_SLOPE, Slopes, StretchedBlade};
 
 use super::State;
 
@@ -9,6 +9,7 @@ use super::State;
 pub(crate) struct StretchedProbe<'a> {
     blade: &'a StretchedBlade,
     probe: Point,
+    slopes: Slopes,
     /// Largest slope of the blade so far.
     pub largest_slope: f64,
 }
@@ -19,13 +20,14 @@ impl<'a> StretchedProbe<'a> {
         StretchedProbe {
             blade,
             probe,
+            slopes: blade.slopes(),
             largest_slope: 0.0,
         }
     }
 
     /// Whether the slopes of the blade are within the model, in which case the model holds.
-    pub fn holds(&mut self, state: &State, speed_rad_per_s: f64) -> bool {
-        let slope = self.blade.largest_slope(&shape(state, speed_rad_per_s));
+    pub fn holds(&mut self, state: &State) -> bool {
+        let slope = self.slopes.largest(&state.displacement);
         self.largest_slope = self.largest_slope.max(slope);
         slope <= LARGEST_SLOPE
     }

@@ -120,7 +120,7 @@ impl Samples<'_> {
     /// Adds a sample; returns false if slopes are too large.
     fn take(&mut self, state: &State, speed_rad_per_s: f64) -> bool {
         let is_looked_at = self.deflection_m.len().is_multiple_of(LOOKED);
-        if is_looked_at && !self.probe.holds(state, speed_rad_per_s) {
+        if is_looked_at && !self.probe.holds(state) {
             self.valid_until_rad_per_s = Some(speed_rad_per_s);
             return false;
         }
