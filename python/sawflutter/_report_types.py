@@ -2102,6 +2102,9 @@ class MappedSaw(Entry):
     state : Whether the saw is stable at the speed at which the saws are judged; null without
         such a speed.
     at_critical_rpm : Critical speed within 5 % of that speed; null if there is none.
+    side_force_factor : Deflection of the rim at the cut under a constant side force there at that
+        speed, relative to that at rest, as in the verdict of `analyze`; null without such a speed,
+        unless the saw is stable, and where no verdict gives it.
     not_analysed : Reason for which the saw was not analysed; null if it was.
     """
 
@@ -2113,6 +2116,7 @@ class MappedSaw(Entry):
     bands: tuple[Instability, ...] = field(metadata={"key": "instabilities"})
     state: StabilityState | None
     at_critical_rpm: float | None
+    side_force_factor: float | None = field(default=None)
     not_analysed: str | None
 
 
@@ -3295,7 +3299,7 @@ class Setting(Entry):
     speeds : Number of even speeds of the chart; 0 without a chart.
     seconds : Shortest measured run time, in seconds.
     error : Largest relative error of critical speeds and, in a chart, of flutter onsets, by
-        comparison with the largest basis.
+        comparison with a larger basis.
     on_front : Whether no other chart is faster and at least as accurate.
     """
 

@@ -71,7 +71,13 @@ fn a_map_over_the_speed_holds_what_each_saw_is_alone() {
             (Some(own), Some(other)) => assert!(near(own, other), "{own} {other}"),
             (own, other) => assert_eq!(own, other),
         }
+        match (saw.side_force_factor, operating.side_force_factor) {
+            (Some(own), Some(other)) => assert!((own / other - 1.0).abs() < 1e-6, "{own} {other}"),
+            (own, other) => assert_eq!(own, other),
+        }
     }
+    assert!(map.saws.iter().any(|saw| saw.side_force_factor.is_some()));
+    assert!(summary.contains("times as far as at rest"), "{summary}");
     assert!(map.saws.iter().any(|saw| saw.at_critical_rpm.is_some()));
     assert_eq!(map.saws[1].state, Some(StabilityState::Flutter));
     let flutters = map

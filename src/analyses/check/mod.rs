@@ -39,8 +39,7 @@ pub(crate) use limits::RIM_LIMIT_M_PER_S;
 pub use limits::{Limits, LimitsFile};
 pub use report::{CheckReport, Criterion, RimStiffness};
 pub(crate) use rim::{
-    point_load_plate, point_load_plate_on, rim_at_cut, rim_stiffness_at_rest_n_per_m,
-    side_force_factor,
+    Judged, point_load_plate, rim_at_cut, rim_stiffness_at_rest_n_per_m, side_force_factor,
 };
 use static_deflection::StaticDeflection;
 
@@ -69,7 +68,7 @@ pub enum CheckError {
 pub fn check(scene: &Scene, limits: &Limits) -> Result<CheckReport, CheckError> {
     let analysis = &analysed(scene, limits.reach_rad_per_s())?;
     let angle = scene.cut_angle_rad();
-    let plate = &point_load_plate(analysis);
+    let plate = &point_load_plate(&analysis.scene, analysis.model.plate.resolution);
     let critical = analysis.critical_rad_per_s();
     let lowest_critical = critical.first().copied();
     let operating = limits.operating_rad_per_s;

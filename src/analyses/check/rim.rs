@@ -17,14 +17,9 @@ const POINT_LOAD_BASIS: Resolution = Resolution {
 /// the critical speed the factor has the same relative error.
 const DISTANCE_ERROR: f64 = 0.1;
 
-/// The plate of an analysis on a basis for point loads, in which critical speeds are at least as accurate as in the
-/// analysis.
-pub(crate) fn point_load_plate(analysis: &Analysis) -> Plate {
-    point_load_plate_on(&analysis.scene, analysis.model.plate.resolution)
-}
-
-/// The plate of a scene on a basis for point loads that is at least as large as another one.
-pub(crate) fn point_load_plate_on(scene: &Scene, own: Resolution) -> Plate {
+/// The plate of a scene on a basis for point loads, in which critical speeds are at least as accurate as in its analysis on
+/// the basis `own`.
+pub(crate) fn point_load_plate(scene: &Scene, own: Resolution) -> Plate {
     let resolution = Resolution {
         max_diameters: own.max_diameters.max(POINT_LOAD_BASIS.max_diameters),
         radial_functions: own.radial_functions.max(POINT_LOAD_BASIS.radial_functions),
@@ -38,13 +33,14 @@ pub(crate) fn rim_at_cut(scene: &Scene) -> Polar {
 }
 
 /// A side force on the rim at the cut; `None` if rigid motions are free.
-fn side_force(analysis: &Analysis) -> Option<PointLoad> {
-    PointLoad::new(&point_load_plate(analysis), rim_at_cut(&analysis.scene))
+fn side_force(scene: &Scene, own: Resolution) -> Option<PointLoad> {
+    PointLoad::new(&point_load_plate(scene, own), rim_at_cut(scene))
 }
 
 /// Lateral stiffness at rest, in N/m; `None` if rigid motions are free.
 pub(crate) fn rim_stiffness_at_rest_n_per_m(analysis: &Analysis) -> Option<f64> {
-    Some(1.0 / side_force(analysis)?.compliance_m_per_n(0.0)?)
+    let force = side_force(&analysis.scene, analysis.model.plate.resolution)?;
+    Some(1.0 / force.compliance_m_per_n(0.0)?)
 }
 
 /// Deflection of the rim at the cut under a constant side force there, relative to that at rest: φᵀK(Ω)⁻¹φ /
@@ -54,18 +50,43 @@ pub(crate) fn rim_stiffness_at_rest_n_per_m(analysis: &Analysis) -> Option<f64> 
 /// unknown, or is more than a tenth of the distance from it.
 pub(crate) fn side_force_factor(analysis: &Analysis, speed_rad_per_s: f64) -> Option<f64> {
     let verdict = analysis.verdict(speed_rad_per_s);
-    if verdict.state != StabilityState::Stable {
-        return None;
-    }
-    if let Some(place) = verdict.critical {
-        let critical = &analysis.model.critical[place];
-        let distance = (speed_rad_per_s / critical.speed_rad_per_s - 1.0).abs();
-        if analysis.estimated_relative_error? > DISTANCE_ERROR * distance {
+    let near = verdict
+        .critical
+        .map(|place| &analysis.model.critical[place]);
+    let judged = Judged {
+        speed_rad_per_s,
+        state: verdict.state,
+        critical_rad_per_s: near.map(|critical| critical.speed_rad_per_s),
+        estimated_relative_error: analysis.estimated_relative_error,
+    };
+    judged.side_force_factor(&analysis.scene, analysis.model.plate.resolution)
+}
+
+/// A saw at a speed, judged.
+pub(crate) struct Judged {
+    pub speed_rad_per_s: f64,
+    pub state: StabilityState,
+    /// Critical speed within 5 %.
+    pub critical_rad_per_s: Option<f64>,
+    /// Estimated error of critical speeds.
+    pub estimated_relative_error: Option<f64>,
+}
+
+impl Judged {
+    /// The number of [`side_force_factor`] for the saw of a scene that was analysed on a basis.
+    pub fn side_force_factor(&self, scene: &Scene, analysed_on: Resolution) -> Option<f64> {
+        if self.state != StabilityState::Stable {
             return None;
         }
+        if let Some(critical) = self.critical_rad_per_s {
+            let distance = (self.speed_rad_per_s / critical - 1.0).abs();
+            if self.estimated_relative_error? > DISTANCE_ERROR * distance {
+                return None;
+            }
+        }
+        let force = side_force(scene, analysed_on)?;
+        Some(force.compliance_m_per_n(self.speed_rad_per_s)? / force.compliance_m_per_n(0.0)?)
     }
-    let force = side_force(analysis)?;
-    Some(force.compliance_m_per_n(speed_rad_per_s)? / force.compliance_m_per_n(0.0)?)
 }
 
 #[cfg(test)]
@@ -91,7 +112,7 @@ mod tests {
     fn next_to_a_critical_speed_the_factor_is_that_of_its_wave() {
         let saw = clamped(3800.0);
         let analysis = Analysis::new(&saw).unwrap();
-        let plate = point_load_plate(&analysis);
+        let plate = point_load_plate(&saw, analysis.model.plate.resolution);
         let system = GyroscopicSystem::of_plate(&plate);
         let point = at_point(&plate, rim_at_cut(&saw));
         let force = PointLoad::new(&plate, rim_at_cut(&saw)).unwrap();

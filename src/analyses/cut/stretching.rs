@@ -134,7 +134,7 @@ struct Phase<'a> {
 /// The record of the probe.
 struct Samples<'a> {
     blade: &'a StretchedBlade,
-    probe: StretchedProbe<'a>,
+    probe: StretchedProbe,
     speed_rad_per_s: f64,
     record: Record,
     looked_s: f64,
@@ -200,10 +200,9 @@ impl<'a> Samples<'a> {
 
     /// Adds a sample; returns false if slopes are too large.
     fn take(&mut self, state: &State, time_s: f64) -> bool {
-        let speed = self.speed_rad_per_s;
         if time_s >= self.looked_s + LOOK_S {
             self.looked_s = time_s;
-            let holds = self.probe.holds(state, speed);
+            let holds = self.probe.holds(state);
             self.found.largest_slope = self.probe.largest_slope;
             if !holds {
                 self.found.valid_until_s = Some(time_s);

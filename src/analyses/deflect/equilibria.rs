@@ -1,6 +1,7 @@
 //! The equilibria themselves: a blade with as many shapes as needed, its sweeps and its curves.
 
 use faer::Col;
+use rayon::prelude::*;
 
 use super::error::DeflectError;
 use super::options::{Options, steep};
@@ -112,10 +113,11 @@ fn gentler(
     blade: &StretchedBlade,
     speed_rad_per_s: f64,
 ) -> Result<Option<f64>, StretchedError> {
+    let slopes = blade.slopes();
     let is_gentle = |force_n: f64| {
         let pressed = blade.clone().pressed(force_n, force.at.polar())?;
         match pressed.settled(speed_rad_per_s, &pressed.flat()) {
-            Ok(found) => Ok(pressed.largest_slope(&found) <= LARGEST_SLOPE),
+            Ok(found) => Ok(slopes.largest(&found.coordinates) <= LARGEST_SLOPE),
             Err(StretchedError::NotFound { .. }) => Ok(false),
             Err(other) => Err(other),
         }
@@ -298,12 +300,12 @@ fn add_curve(
     if curves.len() >= MOST_CURVES || is_known(blade, curves, start) {
         return Ok(());
     }
-    for upwards in sides {
-        // A curve that cannot be followed is omitted.
-        if let Ok(curve) = blade.branch(start, *upwards, range, Extent::Drawn) {
-            curves.push(curve);
-        }
-    }
+    // A curve that cannot be followed is omitted.
+    let followed = sides
+        .par_iter()
+        .map(|upwards| blade.branch(start, *upwards, range, Extent::Drawn).ok());
+    let followed: Vec<Option<Branch>> = followed.collect();
+    curves.extend(followed.into_iter().flatten());
     Ok(())
 }
 

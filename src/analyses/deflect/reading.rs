@@ -7,13 +7,14 @@ use rayon::prelude::*;
 use super::report::{Arc, EquilibriumCurve, Jump, SlowSweep, Turn};
 use crate::model::scene::{Point, Polar, rpm};
 use crate::motion::stretched_blade::{
-    Branch, Equilibrium, LARGEST_SLOPE, Sites, StretchedBlade, StretchedError, Sweep,
+    Branch, Equilibrium, LARGEST_SLOPE, Sites, Slopes, StretchedBlade, StretchedError, Sweep,
 };
 
 /// Evaluates equilibria of a blade.
 pub(super) struct Reader<'a> {
     blade: &'a StretchedBlade,
     sites: Sites,
+    slopes: Slopes,
     probe: Point,
     /// Frequency up to which small motions are listed.
     to_hz: f64,
@@ -24,6 +25,7 @@ impl<'a> Reader<'a> {
         Reader {
             blade,
             sites: blade.sites(),
+            slopes: blade.slopes(),
             probe,
             to_hz,
         }
@@ -43,7 +45,7 @@ impl<'a> Reader<'a> {
 
     /// Whether slopes exceed 0.1, where von Kármán's strains are not valid.
     fn is_steep(&self, e: &Equilibrium) -> bool {
-        self.blade.largest_slope(e) > LARGEST_SLOPE
+        self.slopes.largest(&e.coordinates) > LARGEST_SLOPE
     }
 
     /// Speed at which the largest deflection of a sweep first exceeds a limit, by linear interpolation between two
@@ -121,7 +123,7 @@ impl<'a> Reader<'a> {
             rpm: of(&|e| rpm(e.speed_rad_per_s)),
             deflection_m: of(&|e| self.at_probe_m(e)),
             largest_deflection_m: of(&|e| self.largest_m(e)),
-            largest_slope: of(&|e| self.blade.largest_slope(e)),
+            largest_slope: of(&|e| self.slopes.largest(&e.coordinates)),
             pad_forces_n: (0..pads).map(of_pad).collect(),
             frequencies_hz: frequencies.collect::<Result<_, _>>()?,
         })

@@ -1,5 +1,7 @@
 //! The least-squares problem in the form that `basin` expects, and its statistics.
 
+use std::sync::{Mutex, MutexGuard, PoisonError};
+
 use basin::{
     BoxBounds, ConstraintDescription, ConstraintSet, Constraints, DenseMatrix, Executor, Jacobian,
     Residual, TrustRegionReflective,
@@ -10,7 +12,7 @@ use statrs::distribution::{ContinuousCDF, StudentsT};
 use crate::model::linalg::RightSingular;
 use crate::modes::SpectrumError;
 
-use super::model::Model;
+use super::model::{Model, Solved};
 
 /// Shares at a minimum, and the root mean square of the residuals there.
 #[derive(Debug, Clone)]
@@ -23,6 +25,8 @@ struct Problem<'a> {
     model: &'a Model<'a>,
     lower: Vec<f64>,
     upper: Vec<f64>,
+    /// Shares and modes of the last residual: where a step is taken, the derivatives need the same modes.
+    last: Mutex<Option<(Vec<f64>, Option<Solved>)>>,
 }
 
 impl Constraints for Problem<'_> {
@@ -39,7 +43,10 @@ impl Residual for Problem<'_> {
     type Error = SpectrumError;
 
     fn residual(&self, shares: &Vec<f64>) -> Result<Vec<f64>, SpectrumError> {
-        self.model.residuals_hz(shares)
+        let solved = self.model.solved(shares)?;
+        let residuals = self.model.residuals_of(solved.as_ref());
+        *self.last() = Some((shares.clone(), solved));
+        Ok(residuals)
     }
 }
 
@@ -54,14 +61,43 @@ impl Jacobian for Problem<'_> {
         &self,
         shares: &Vec<f64>,
     ) -> Result<(Vec<f64>, DenseMatrix<f64>), SpectrumError> {
+        if let Some((_, solved)) = self.last().as_ref().filter(|(at, _)| at == shares) {
+            let solved = solved.as_ref();
+            let slopes = self.model.slopes_of(shares, solved);
+            return Ok((self.model.residuals_of(solved), slopes));
+        }
         self.model.residuals_and_slopes(shares)
     }
 }
 
-/// Step, as a share of the distance between the bounds, below which the search ends.
-const STEP_TOLERANCE: f64 = 1e-8;
-/// Relative decrease of the sum of squares below which the search ends.
-const COST_TOLERANCE: f64 = 1e-12;
+impl Problem<'_> {
+    fn last(&self) -> MutexGuard<'_, Option<(Vec<f64>, Option<Solved>)>> {
+        self.last.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+}
+
+/// Where a search ends.
+#[derive(Debug, Clone, Copy)]
+pub struct Ends {
+    /// Step, as a share of the distance between the bounds, below which the search ends.
+    step: f64,
+    /// Relative decrease of the sum of squares below which the search ends.
+    decrease: f64,
+}
+
+impl Ends {
+    /// At the digits of a report.
+    pub const EXACT: Ends = Ends {
+        step: 1e-8,
+        decrease: 1e-12,
+    };
+    /// Where the minimum is known well enough to compare it with others, and to refine it.
+    pub const COARSE: Ends = Ends {
+        step: 1e-5,
+        decrease: 1e-7,
+    };
+}
+
 /// Largest number of steps.
 const MAX_STEPS: u64 = 100;
 
@@ -70,20 +106,25 @@ const MAX_STEPS: u64 = 100;
 ///
 /// # Errors
 /// [`SpectrumError`] when an eigenproblem fails.
-pub fn minimum(model: &Model<'_>, start: &[f64]) -> Result<Option<Found>, SpectrumError> {
+pub fn minimum(
+    model: &Model<'_>,
+    start: &[f64],
+    ends: Ends,
+) -> Result<Option<Found>, SpectrumError> {
     let count = start.len();
     let problem = Problem {
         model,
         lower: vec![0.0; count],
         upper: vec![1.0; count],
+        last: Mutex::new(None),
     };
     let at_start = model.residuals_hz(start)?;
     if at_start.iter().any(|r| r.is_nan()) {
         return Ok(None);
     }
     let solver = TrustRegionReflective::new()
-        .with_relative_cost_change_tolerance(COST_TOLERANCE)
-        .with_relative_step_tolerance(STEP_TOLERANCE);
+        .with_relative_cost_change_tolerance(ends.decrease)
+        .with_relative_step_tolerance(ends.step);
     let run = Executor::from_start(problem, solver, start.to_vec())
         .max_iter(MAX_STEPS)
         .run();

@@ -35,65 +35,61 @@ impl Model<'_> {
     /// Computed minus measured frequency of every pair, in Hz. NaN if the scene refuses this combination of
     /// values; the solver then shortens its step.
     pub fn residuals_hz(&self, shares: &[f64]) -> Result<Vec<f64>, SpectrumError> {
-        match self.plate(shares) {
-            Ok(plate) => self.residuals_of(&LowestModes::new(&plate), |_, _| ()),
-            Err(_) => Ok(vec![f64::NAN; self.measurement.count()]),
-        }
+        Ok(self.residuals_of(self.solved(shares)?.as_ref()))
     }
 
     /// The residuals of a saw whose numbers need not lie between the bounds.
     pub fn residuals_of_saw_hz(&self, saw: &Scene) -> Result<Vec<f64>, SpectrumError> {
-        let lowest = LowestModes::new(&Plate::new(saw, self.resolution));
-        self.residuals_of(&lowest, |_, _| ())
+        let solved = Solved::new(&Plate::new(saw, self.resolution), self.measurement)?;
+        Ok(self.residuals_of(Some(&solved)))
     }
 
-    /// Computes the residuals as [`Model::residuals_hz`] does, and their derivatives by every share. The derivative of
-    /// an eigenvalue by the matrices is exact; [`matrix_slopes`] gives that of the matrices.
+    /// Computes the residuals as [`Model::residuals_hz`] does, and their derivatives by every share.
     pub fn residuals_and_slopes(
         &self,
         shares: &[f64],
     ) -> Result<(Vec<f64>, DenseMatrix<f64>), SpectrumError> {
+        let solved = self.solved(shares)?;
+        let slopes = self.slopes_of(shares, solved.as_ref());
+        Ok((self.residuals_of(solved.as_ref()), slopes))
+    }
+
+    /// The modes at the measured speeds; `None` if the scene refuses this combination of values.
+    pub fn solved(&self, shares: &[f64]) -> Result<Option<Solved>, SpectrumError> {
+        let plate = self.plate(shares).ok();
+        plate
+            .map(|plate| Solved::new(&plate, self.measurement))
+            .transpose()
+    }
+
+    /// The residuals of a saw in Hz. A mode that the basis lacks has the frequency zero.
+    pub fn residuals_of(&self, solved: Option<&Solved>) -> Vec<f64> {
+        let Some(solved) = solved else {
+            return vec![f64::NAN; self.measurement.count()];
+        };
+        let pairs = solved.pairs(self.measurement);
+        pairs
+            .map(|(_, mode, measured_hz)| mode.map_or(0.0, frequency_hz) - measured_hz)
+            .collect()
+    }
+
+    /// The derivatives of the residuals by every share. The derivative of an eigenvalue by the matrices is exact;
+    /// [`matrix_slopes`] gives that of the matrices.
+    pub fn slopes_of(&self, shares: &[f64], solved: Option<&Solved>) -> DenseMatrix<f64> {
         let (rows, columns) = (self.measurement.count(), self.freed.len());
         let changes: Result<Vec<_>, SceneError> = (0..columns)
             .map(|k| self.changed_components(shares, k))
             .collect();
-        let (Ok(plate), Ok(changes)) = (self.plate(shares), changes) else {
-            let slopes =
-                DenseMatrix::from_row_slice(rows, columns, &vec![f64::NAN; rows * columns]);
-            return Ok((vec![f64::NAN; rows], slopes));
+        let (Some(solved), Ok(changes)) = (solved, changes) else {
+            return DenseMatrix::from_row_slice(rows, columns, &vec![f64::NAN; rows * columns]);
         };
-        let lowest = LowestModes::new(&plate);
-        let mut slopes = Vec::with_capacity(rows * columns);
-        let residuals = self.residuals_of(&lowest, |speed, mode| {
-            slopes.extend(changes.iter().map(|components| {
-                mode.map_or(0.0, |mode| {
-                    slope_hz(&lowest.components, components, speed, mode)
-                })
-            }));
-        })?;
-        Ok((
-            residuals,
-            DenseMatrix::from_row_slice(rows, columns, &slopes),
-        ))
-    }
-
-    /// Computes the residuals in Hz and calls a function with the speed and the mode of every pair. A mode that the
-    /// basis lacks has the frequency zero.
-    fn residuals_of(
-        &self,
-        lowest: &LowestModes,
-        mut visit: impl FnMut(f64, Option<&Mode>),
-    ) -> Result<Vec<f64>, SpectrumError> {
-        let mut residuals = Vec::new();
-        for row in &self.measurement.rows {
-            let assigned = Assigned::new(lowest, row)?;
-            for (column, (_, measured_hz)) in row.pairs.iter().enumerate() {
-                let mode = assigned.mode(column);
-                residuals.push(mode.map_or(0.0, frequency_hz) - measured_hz);
-                visit(rad_per_s(row.rpm), mode);
-            }
-        }
-        Ok(residuals)
+        let of = &solved.lowest.components;
+        let slopes = solved.pairs(self.measurement).flat_map(|(speed, mode, _)| {
+            changes.iter().map(move |components| {
+                mode.map_or(0.0, |mode| slope_hz(of, components, speed, mode))
+            })
+        });
+        DenseMatrix::from_row_slice(rows, columns, &slopes.collect::<Vec<f64>>())
     }
 
     /// Derivative by share k of the matrices of every component.
@@ -112,6 +108,37 @@ impl Model<'_> {
             let mut shares = shares.to_vec();
             shares[k] += by;
             self.plate(&shares)
+        })
+    }
+}
+
+/// A saw, and its lowest modes at the speeds of all rows.
+pub struct Solved {
+    lowest: LowestModes,
+    rows: Vec<Assigned>,
+}
+
+impl Solved {
+    fn new(plate: &Plate, measurement: &Measurement) -> Result<Self, SpectrumError> {
+        let lowest = LowestModes::new(plate);
+        let rows = measurement.rows.iter();
+        Ok(Solved {
+            rows: rows
+                .map(|row| Assigned::new(&lowest, row))
+                .collect::<Result<_, _>>()?,
+            lowest,
+        })
+    }
+
+    /// Speed in rad/s, mode, if the basis has it, and measured frequency in Hz of every pair.
+    fn pairs<'a>(
+        &'a self,
+        measurement: &'a Measurement,
+    ) -> impl Iterator<Item = (f64, Option<&'a Mode>, f64)> {
+        let rows = measurement.rows.iter().zip(&self.rows);
+        rows.flat_map(|(row, assigned)| {
+            let pairs = row.pairs.iter().enumerate();
+            pairs.map(|(column, (_, hz))| (rad_per_s(row.rpm), assigned.mode(column), *hz))
         })
     }
 }

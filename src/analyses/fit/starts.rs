@@ -5,7 +5,7 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 use rayon::prelude::*;
 
 use super::exchange::exchanged;
-use super::least_squares::{Found, minimum};
+use super::least_squares::{Ends, Found, minimum};
 use super::model::Model;
 use super::{Options, Start};
 use crate::model::scene::spread;
@@ -43,7 +43,7 @@ pub fn search(
     let done = AtomicUsize::new(0);
     let reach = |starts: &[Vec<f64>], of: usize| -> Result<Vec<Option<Found>>, SpectrumError> {
         let each = starts.par_iter().map(|start| {
-            let found = minimum(model, start);
+            let found = minimum(model, start, Ends::COARSE);
             progress(done.fetch_add(1, Ordering::Relaxed) + 1, of);
             found
         });
@@ -97,7 +97,7 @@ fn different(found: Vec<Option<Found>>) -> Vec<Found> {
 pub fn refined(model: &Model<'_>, candidates: &[Found]) -> Result<Vec<Found>, SpectrumError> {
     let refined: Vec<Option<Found>> = candidates
         .par_iter()
-        .map(|found| minimum(model, &found.shares))
+        .map(|found| minimum(model, &found.shares, Ends::EXACT))
         .collect::<Result<_, _>>()?;
     Ok(different(refined))
 }

@@ -113,6 +113,7 @@ fn speeds(text: &mut Outline, report: &MapReport) {
             place(report, high.1)
         ));
     }
+    side_force(text, report);
     let beyond = report
         .saws
         .iter()
@@ -123,6 +124,25 @@ fn speeds(text: &mut Outline, report: &MapReport) {
             "{count} saws do not flutter up to {:.0} rpm",
             report.to_rpm
         )),
+    }
+}
+
+/// Adds the saws that a side force deflects least and most.
+fn side_force(text: &mut Outline, report: &MapReport) {
+    let known = report.saws.iter().filter_map(|saw| {
+        let factor = saw.side_force_factor?;
+        Some((factor.abs(), saw))
+    });
+    let by_factor = |a: &(f64, &MappedSaw), b: &(f64, &MappedSaw)| a.0.total_cmp(&b.0);
+    let ends = known.clone().min_by(by_factor).zip(known.max_by(by_factor));
+    if let Some((least, most)) = ends {
+        text.sentence(format!(
+            "Side force at the cut: deflects stable blades {} times as far as at rest ({}) to {} times ({})",
+            shown_to(2, least.0),
+            place(report, least.1),
+            shown_to(2, most.0),
+            place(report, most.1)
+        ));
     }
 }
 

@@ -81,6 +81,10 @@ pub struct MappedSaw {
     pub state: Option<StabilityState>,
     /// Critical speed within 5 % of that speed; null if there is none.
     pub at_critical_rpm: Option<f64>,
+    /// Deflection of the rim at the cut under a constant side force there at that speed, relative to that at rest, as in the
+    /// verdict of `analyze`; null without such a speed, unless the saw is stable, and where no verdict gives it.
+    #[serde(default)]
+    pub side_force_factor: Option<f64>,
     /// Reason for which the saw was not analysed; null if it was.
     pub not_analysed: Option<String>,
 }

@@ -1,10 +1,13 @@
 //! The report of the saws of a map.
 
+use rayon::prelude::*;
+
 use super::contour::contours;
 use super::{Contour, Contoured, Map, MapReport, MappedSaw};
 use crate::analyses::campbell::InstabilityBand;
+use crate::analyses::check::Judged;
 use crate::analyses::study::{Found, LogError, Rows, Saw};
-use crate::model::scene::rpm;
+use crate::model::scene::{rad_per_s, rpm};
 use crate::stability::{StabilityState, critical_at, edges, undecided};
 
 impl Map {
@@ -24,7 +27,7 @@ impl Map {
     /// Reports saws in the order of their numbers.
     pub fn report(&self, saws: &[Saw]) -> MapReport {
         let scene = self.study.scene();
-        let mapped: Vec<MappedSaw> = saws.iter().map(|saw| self.mapped(saw)).collect();
+        let mapped: Vec<MappedSaw> = saws.par_iter().map(|saw| self.mapped(saw)).collect();
         let found = || saws.iter().filter_map(Saw::found);
         let errors = found().map(|found| found.estimated_relative_error);
         MapReport {
@@ -52,19 +55,33 @@ impl Map {
         let judged_rpm = self.rpm.filter(|_| saw.found().is_some());
         let end_rpm = rpm(self.study.to_rad_per_s());
         let within = |speed_rpm: &f64| *speed_rpm <= end_rpm;
+        let state = judged_rpm.map(|rpm| state_at(&found.bands, rpm, end_rpm));
+        let at_critical_rpm = judged_rpm
+            .and_then(|rpm| critical_at(&found.critical_rpm, rpm))
+            .map(|place| found.critical_rpm[place]);
+        let judged = judged_rpm.zip(state).map(|(rpm, state)| Judged {
+            speed_rad_per_s: rad_per_s(rpm),
+            state,
+            critical_rad_per_s: at_critical_rpm.map(rad_per_s),
+            estimated_relative_error: Some(found.estimated_relative_error),
+        });
         MappedSaw {
+            side_force_factor: judged.and_then(|judged| self.side_force_factor(saw, &judged)),
             x: self.x.values[saw.index % columns],
             y: self.y.as_ref().map(|y| y.values[saw.index / columns]),
             lowest_critical_rpm: found.lowest_critical_rpm,
             flutter_speed_rpm: found.flutter_rpm,
-            at_critical_rpm: judged_rpm
-                .and_then(|rpm| critical_at(&found.critical_rpm, rpm))
-                .map(|place| found.critical_rpm[place]),
+            at_critical_rpm,
             critical_rpm: found.critical_rpm.iter().copied().filter(within).collect(),
             instabilities: found.bands.clone(),
-            state: judged_rpm.map(|rpm| state_at(&found.bands, rpm, end_rpm)),
+            state,
             not_analysed: saw.outcome.reason().map(str::to_owned),
         }
+    }
+
+    fn side_force_factor(&self, saw: &Saw, judged: &Judged) -> Option<f64> {
+        let scene = self.study.scene_of(&saw.values).ok()?;
+        judged.side_force_factor(&scene, self.study.basis()?)
     }
 
     fn contours(&self, saws: &[MappedSaw]) -> Vec<Contour> {

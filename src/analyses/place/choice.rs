@@ -124,7 +124,7 @@ pub fn settle(
     let mut starts = search.most_robust(&by_itself, 1, 0.0);
     let peak = by_itself.into_iter().next()?.shares;
     if starts.iter().all(|start| start.shares != peak) {
-        let cost = search.worst_cost(&peak, f64::INFINITY);
+        let cost = search.worst_cost(&peak, f64::INFINITY, &mut 0);
         starts.push(Tried { shares: peak, cost });
     }
     let (done, of) = (AtomicUsize::new(0), budget as usize * starts.len());

@@ -5,7 +5,7 @@
 
 use rayon::prelude::*;
 
-use crate::analyses::check::point_load_plate_on;
+use crate::analyses::check::point_load_plate;
 use crate::model::plate::Resolution;
 use crate::model::scene::scene_at;
 
@@ -67,7 +67,7 @@ fn weighed(search: &Search<'_>, saw: &Weighed, resolution: Resolution) -> Option
         Some(limited) => limited,
         None => {
             let scene = scene_at(search.scene, search.freed, &saw.shares).ok()?;
-            linear_deviation_m(&scene, &point_load_plate_on(&scene, resolution))?
+            linear_deviation_m(&scene, &point_load_plate(&scene, resolution))?
         }
     };
     Some(FrontSaw {

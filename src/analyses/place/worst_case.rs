@@ -60,17 +60,28 @@ impl Search<'_> {
     }
 
     /// Cost of a saw in the worst case of its tolerances; if it exceeds a limit, that of the worst neighbour
-    /// computed so far.
-    pub fn worst_cost(&self, shares: &[f64], limit: f64) -> f64 {
+    /// computed so far. `hardest` is the direction of the worst neighbour of the preceding saw, which is usually that of a saw close to
+    /// it, too, and excludes most saws.
+    pub fn worst_cost(&self, shares: &[f64], limit: f64, hardest: &mut usize) -> f64 {
         let mut worst = self.cost(shares);
-        for some in directions(shares.len()).chunks(AT_A_TIME) {
+        let all = directions(shares.len());
+        let mut order: Vec<usize> = (0..all.len()).collect();
+        order.swap(0, *hardest);
+        let (first, others) = order.split_at(1);
+        for some in std::iter::once(first).chain(others.chunks(AT_A_TIME)) {
             if worst > limit {
                 break;
             }
-            let cost_of =
-                |direction: &Vec<f64>| Some(self.cost(&self.moved(shares, direction)?.shares));
-            let costs: Vec<Option<f64>> = some.par_iter().map(cost_of).collect();
-            worst = costs.into_iter().flatten().fold(worst, f64::max);
+            let cost_of = |place: &usize| {
+                let cost = self.cost(&self.moved(shares, &all[*place])?.shares);
+                Some((*place, cost))
+            };
+            let costs: Vec<Option<(usize, f64)>> = some.par_iter().map(cost_of).collect();
+            for (place, cost) in costs.into_iter().flatten() {
+                if cost > worst {
+                    (worst, *hardest) = (cost, place);
+                }
+            }
         }
         worst
     }
@@ -79,6 +90,7 @@ impl Search<'_> {
     /// from each other. `tried` is sorted by nominal cost.
     pub fn most_robust(&self, tried: &[Tried], count: usize, distance: f64) -> Vec<Tried> {
         let mut chosen: Vec<Tried> = Vec::new();
+        let mut hardest = 0;
         while chosen.len() < count {
             let mut best: Option<Tried> = None;
             for one in tried.iter().filter(|one| one.is_apart(&chosen, distance)) {
@@ -86,7 +98,7 @@ impl Search<'_> {
                 if one.cost >= limit {
                     break;
                 }
-                let cost = self.worst_cost(&one.shares, limit);
+                let cost = self.worst_cost(&one.shares, limit, &mut hardest);
                 if cost < limit {
                     let shares = one.shares.clone();
                     best = Some(Tried { shares, cost });
@@ -111,7 +123,7 @@ impl Search<'_> {
     ) -> Tried {
         let problem = Boxed {
             search: self,
-            least: Mutex::new(start.cost),
+            least: Mutex::new((start.cost, 0)),
             see,
             lower: vec![0.0; self.freed.len()],
             upper: vec![1.0; self.freed.len()],
@@ -135,8 +147,8 @@ impl Search<'_> {
 
 struct Boxed<'a> {
     search: &'a Search<'a>,
-    /// Smallest cost so far.
-    least: Mutex<f64>,
+    /// Smallest cost so far, and the direction of the worst neighbour of the last saw.
+    least: Mutex<(f64, usize)>,
     see: &'a (dyn Fn() + Sync),
     lower: Vec<f64>,
     upper: Vec<f64>,
@@ -159,9 +171,9 @@ impl CostFunction for Boxed<'_> {
         let least = || self.least.lock().unwrap_or_else(PoisonError::into_inner);
         // A cost above `limit`, the smallest cost so far, may be inexact, because the direct search only
         // compares it with the smallest one.
-        let limit = *least();
-        let cost = self.search.worst_cost(shares, limit);
-        *least() = limit.min(cost);
+        let (limit, mut hardest) = *least();
+        let cost = self.search.worst_cost(shares, limit, &mut hardest);
+        *least() = (limit.min(cost), hardest);
         (self.see)();
         Ok(cost)
     }

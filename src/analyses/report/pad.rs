@@ -35,7 +35,7 @@ impl LoadedPad {
         if analysis.verdict(speed).state != StabilityState::Stable {
             return Vec::new();
         }
-        let plate = point_load_plate(analysis);
+        let plate = point_load_plate(&analysis.scene, analysis.model.plate.resolution);
         let load = PointLoad::new(&plate, rim_at_cut(scene));
         let Some(deflected) = load.and_then(|load| load.deflected(speed)) else {
             return Vec::new();

@@ -156,7 +156,7 @@ impl Study {
 
     /// The basis of the saw without deviations, from which the choice of the basis of every saw starts. It
     /// does not depend on which saws are computed or in which order. `None` if that saw cannot be analysed.
-    pub(super) fn basis(&self) -> Option<Resolution> {
+    pub(crate) fn basis(&self) -> Option<Resolution> {
         if let Some(known) = self.basis.get() {
             return *known;
         }
@@ -204,7 +204,7 @@ impl Study {
     }
 
     /// The scene of a saw, over the speeds of the study.
-    pub(super) fn scene_of(&self, values: &[f64]) -> Result<Scene, SceneError> {
+    pub(crate) fn scene_of(&self, values: &[f64]) -> Result<Scene, SceneError> {
         let parameters = self.varying.iter().map(|varying| &varying.parameter);
         let numbers: Vec<(&Parameter, f64)> = parameters.zip(values.iter().copied()).collect();
         let scene = self.scene.file().with(&numbers)?;

@@ -33,7 +33,7 @@ pub struct Setting {
     pub speeds: usize,
     /// Shortest measured run time, in seconds.
     pub seconds: f64,
-    /// Largest relative error of critical speeds and, in a chart, of flutter onsets, by comparison with the largest
+    /// Largest relative error of critical speeds and, in a chart, of flutter onsets, by comparison with a larger
     /// basis.
     pub error: f64,
     /// Whether no other chart is faster and at least as accurate.

@@ -70,7 +70,7 @@ fn table(text: &mut String, saw: &str, settings: &[Setting]) -> std::fmt::Result
         )?;
     }
     writeln!(text)?;
-    for error in [1e-2, 1e-3, 1e-4, 1e-5] {
+    for error in [1e-2, 1e-3, 1e-4] {
         match recommended(settings, error) {
             Some(s) => writeln!(
                 text,

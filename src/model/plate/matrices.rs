@@ -99,8 +99,10 @@ impl Plate {
     /// unknowns. A point force F there is F φ on the right side of the equation of motion.
     pub fn functions_at(&self, radius_m: f64, angle_rad: f64) -> Vec<f64> {
         let mut values = Vec::with_capacity(self.degrees_of_freedom());
+        // The radial functions of one nodal diameter differ from those of all others.
+        let functions = [0, 1].map(|n| self.basis.evaluate(n, radius_m).value);
         for n in 0..=self.max_diameters() {
-            let radial = self.basis.evaluate(n, radius_m).value;
+            let radial = &functions[usize::from(n == 1)];
             let (sin, cos) = (n as f64 * angle_rad).sin_cos();
             let norm = self.angular_norm(n);
             values.extend(radial.iter().map(|r| r * cos / norm));

@@ -114,7 +114,11 @@ impl StretchedBlade {
             (true, false) => -1.0,
         });
         let mut place = Place {
-            direction: curve.direction(start, &towards)?,
+            direction: curve.direction(
+                start,
+                &self.hessian(&start.coordinates, speed)?,
+                &towards,
+            )?,
             equilibrium: start.clone(),
         };
         let mut branch = Branch {
@@ -177,11 +181,13 @@ impl Curve<'_> {
         let mut x = &begun + Scale(step) * &place.direction;
         for iteration in 1..=CORRECTIONS {
             let (p, speed) = self.unscaled(&x);
-            let rest = self.blade.residual(&p, speed)?;
+            let tension = self.blade.stretching().tension(&p)?;
+            let rest = self.blade.residual_with(&p, &tension, speed);
             let along = place.direction.transpose() * (&x - &begun) - step;
             let right = Col::from_fn(order + 1, |i| if i < order { rest[i] } else { along });
+            let hessian = self.blade.hessian_with(&p, &tension, speed);
             let correction = self
-                .bordered(&p, speed, &place.direction)?
+                .bordered(&hessian, (&p, speed), &place.direction)
                 .partial_piv_lu()
                 .solve(&right);
             x -= &correction;
@@ -190,8 +196,9 @@ impl Curve<'_> {
             }
             if correction.norm_l2() <= LAST * step {
                 let (p, speed) = self.unscaled(&x);
-                let equilibrium = self.blade.at(p, speed)?;
-                let Ok(direction) = self.direction(&equilibrium, &place.direction) else {
+                let hessian = self.blade.hessian(&p, speed)?;
+                let equilibrium = Equilibrium::with_hessian(p, speed, &hessian)?;
+                let Ok(direction) = self.direction(&equilibrium, &hessian, &place.direction) else {
                     return Ok(None);
                 };
                 // A change of the direction is accepted up to the angle with the cosine 0.9, 26 degrees.
@@ -210,6 +217,7 @@ impl Curve<'_> {
     fn direction(
         &self,
         equilibrium: &Equilibrium,
+        hessian: &Mat<f64>,
         towards: &Col<f64>,
     ) -> Result<Col<f64>, StretchedError> {
         let order = towards.nrows() - 1;
@@ -218,7 +226,7 @@ impl Curve<'_> {
             speed_rad_per_s,
             ..
         } = equilibrium;
-        let matrix = self.bordered(coordinates, *speed_rad_per_s, towards)?;
+        let matrix = self.bordered(hessian, (coordinates, *speed_rad_per_s), towards);
         let last = Col::from_fn(order + 1, |i| if i == order { 1.0 } else { 0.0 });
         let direction = matrix.partial_piv_lu().solve(&last);
         let length = direction.norm_l2();
@@ -230,17 +238,14 @@ impl Curve<'_> {
     }
 
     /// The matrix [∂²V/∂p² · size, ∂²V/∂p∂Ω · range; tᵀ] in the units of the curve.
-    fn bordered(&self, p: &Col<f64>, speed: f64, t: &Col<f64>) -> Result<Mat<f64>, StretchedError> {
+    fn bordered(&self, hessian: &Mat<f64>, (p, speed): (&Col<f64>, f64), t: &Col<f64>) -> Mat<f64> {
         let order = p.nrows();
-        let hessian = self.blade.hessian(p, speed)?;
         let softening = self.blade.softening(p, speed);
-        Ok(Mat::from_fn(order + 1, order + 1, |i, k| {
-            match (i < order, k < order) {
-                (true, true) => hessian[(i, k)] * self.size,
-                (true, false) => softening[i] * self.range_rad_per_s,
-                (false, _) => t[k],
-            }
-        }))
+        Mat::from_fn(order + 1, order + 1, |i, k| match (i < order, k < order) {
+            (true, true) => hessian[(i, k)] * self.size,
+            (true, false) => softening[i] * self.range_rad_per_s,
+            (false, _) => t[k],
+        })
     }
 
     /// Finds the point between two others at which ∂²V/∂p² is singular. False position gives the step at which the

@@ -1,12 +1,13 @@
 //! Equilibria at one speed, and small motions about them.
 
 use faer::linalg::solvers::Solve;
-use faer::{Col, Scale, c64};
+use faer::{Col, Mat, Scale, c64};
 
+use crate::model::linalg::symmetric_eigenvalues;
 use crate::model::scene::{Polar, rpm};
-use crate::modes::{companion_eigenpairs, critical_speeds};
+use crate::modes::{SpectrumError, companion_eigenpairs, critical_speeds};
 
-use super::{ROUNDING, StretchedBlade, StretchedError, angles, finite};
+use super::{ROUNDING, StretchedBlade, StretchedError, finite};
 
 /// An equilibrium of the blade.
 #[derive(Debug, Clone, PartialEq)]
@@ -33,6 +34,20 @@ impl Equilibrium {
             coordinates,
             negative_eigenvalues: values.iter().filter(|value| **value < zero).count(),
         }
+    }
+
+    /// The equilibrium with ∂²V/∂p² there.
+    ///
+    /// # Errors
+    /// [`StretchedError::Spectrum`].
+    pub(super) fn with_hessian(
+        coordinates: Col<f64>,
+        speed_rad_per_s: f64,
+        hessian: &Mat<f64>,
+    ) -> Result<Self, StretchedError> {
+        let values =
+            symmetric_eigenvalues(hessian.as_ref()).map_err(SpectrumError::at(speed_rad_per_s))?;
+        Ok(Equilibrium::of(coordinates, speed_rad_per_s, &values))
     }
 }
 
@@ -61,50 +76,6 @@ impl StretchedBlade {
     pub(crate) fn contacts(&self, equilibrium: &Equilibrium) -> Vec<(f64, f64)> {
         let gaps = self.gaps.as_ref();
         gaps.map_or_else(Vec::new, |gaps| gaps.contacts(&equilibrium.coordinates))
-    }
-
-    /// Largest slope |∇w| of an equilibrium. The potential of stretching is valid up to about 0.1.
-    pub fn largest_slope(&self, equilibrium: &Equilibrium) -> f64 {
-        let q = &self.shapes * &equilibrium.coordinates;
-        let at_radius = |radius_m: f64| {
-            let waves = self.slopes_at(&q, radius_m);
-            let at_angle = |angle_rad: f64| {
-                let mut slope = [0.0; 2];
-                for (n, [radial, hoop]) in waves.iter().enumerate() {
-                    let (sin, cos) = (n as f64 * angle_rad).sin_cos();
-                    slope[0] += radial[0] * cos + radial[1] * sin;
-                    slope[1] += n as f64 * (hoop[1] * cos - hoop[0] * sin);
-                }
-                slope[0].hypot(slope[1])
-            };
-            angles().map(at_angle).fold(0.0, f64::max)
-        };
-        self.plate
-            .sampled_radii_m()
-            .map(at_radius)
-            .fold(0.0, f64::max)
-    }
-
-    /// Factors of cos nθ and sin nθ of w′ and of w/r at a radius.
-    fn slopes_at(&self, q: &Col<f64>, radius_m: f64) -> Vec<[[f64; 2]; 2]> {
-        let plate = &self.plate;
-        let size = plate.radial_functions();
-        let of_wave = |n: usize| {
-            let values = plate.basis.evaluate(n, radius_m);
-            let sum = |part: usize, of: &[f64]| match (n, part) {
-                (0, 1) => 0.0,
-                _ => {
-                    let first = plate.offset(n) + part * size;
-                    let terms = of.iter().enumerate().map(|(j, value)| q[first + j] * value);
-                    terms.sum::<f64>() / plate.angular_norm(n)
-                }
-            };
-            [
-                [0, 1].map(|part| sum(part, &values.slope)),
-                [0, 1].map(|part| sum(part, &values.value) / radius_m),
-            ]
-        };
-        (0..=plate.max_diameters()).map(of_wave).collect()
     }
 
     /// The equilibrium to which Newton's method converges from a guess, or, for `None`, from the flat blade.
@@ -195,8 +166,8 @@ impl StretchedBlade {
         p: Col<f64>,
         speed_rad_per_s: f64,
     ) -> Result<Equilibrium, StretchedError> {
-        let values = self.stiffnesses(&p, speed_rad_per_s)?;
-        Ok(Equilibrium::of(p, speed_rad_per_s, &values))
+        let hessian = self.hessian(&p, speed_rad_per_s)?;
+        Equilibrium::with_hessian(p, speed_rad_per_s, &hessian)
     }
 
     pub(super) fn not_found(&self, p: &Col<f64>, speed_rad_per_s: f64) -> StretchedError {

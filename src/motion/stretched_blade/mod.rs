@@ -28,6 +28,7 @@ mod pressed_blade;
 mod rise;
 mod saturation;
 mod sites;
+mod slopes;
 mod sweep;
 
 pub use branch::{Branch, Extent, Turn, TurnKind};
@@ -37,6 +38,7 @@ pub(crate) use pressed_blade::{Deviation, PressedBlade};
 pub use rise::{Rise, saturations};
 pub use saturation::Saturation;
 pub use sites::Sites;
+pub use slopes::Slopes;
 pub use sweep::Sweep;
 
 use faer::{Col, Mat, MatRef, Scale};
@@ -294,12 +296,6 @@ const LOOSE: f64 = 1e-11;
 
 /// Von Kármán's strains are valid for slopes up to about this value.
 pub const LARGEST_SLOPE: f64 = 0.1;
-
-/// Angles, in rad, at which deflections and slopes are evaluated: more than two for each wave of a usual basis.
-fn angles() -> impl Iterator<Item = f64> {
-    const COUNT: usize = 72;
-    (0..COUNT).map(|k| std::f64::consts::TAU * k as f64 / COUNT as f64)
-}
 
 /// Returns a value, or an error if it is not finite.
 fn finite(what: &'static str, value: f64) -> Result<f64, StretchedError> {

@@ -6,6 +6,7 @@ use crate::modes::Cancellation;
 
 use super::equilibrium::Equilibrium;
 use super::sites::Sites;
+use super::slopes::Slopes;
 use super::{LARGEST_SLOPE, StretchedBlade, StretchedError};
 
 /// A stationary deflection of the blade, and its contact with the pads.
@@ -57,6 +58,7 @@ pub(crate) struct PressedBlade {
     /// The rim at the cut.
     cut: Polar,
     sites: Sites,
+    slopes: Slopes,
 }
 
 impl PressedBlade {
@@ -76,6 +78,7 @@ impl PressedBlade {
         let blade = StretchedBlade::up_to(&plate, rad_per_s(to_rpm), place, modes)?;
         Ok(PressedBlade {
             sites: blade.sites(),
+            slopes: blade.slopes(),
             blade,
             place,
             cut: Polar::new(plate.blade.outer_radius_m, scene.cut_angle_rad()),
@@ -87,6 +90,7 @@ impl PressedBlade {
         PressedBlade {
             blade: self.blade.clone().with_gaps(factor),
             sites: self.sites.clone(),
+            slopes: self.slopes.clone(),
             ..*self
         }
     }
@@ -146,7 +150,7 @@ impl PressedBlade {
 
     /// The deflection of an equilibrium; `None` if its slopes exceed 0.1.
     fn valid(&self, found: &Equilibrium) -> Option<Deviation> {
-        if self.blade.largest_slope(found) > LARGEST_SLOPE {
+        if self.slopes.largest(&found.coordinates) > LARGEST_SLOPE {
             return None;
         }
         Some(Deviation {

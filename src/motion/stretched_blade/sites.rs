@@ -1,8 +1,11 @@
 //! Points of the blade at which deflections are evaluated.
 
+use std::f64::consts::TAU;
+
 use faer::Col;
 
-use super::{StretchedBlade, angles};
+use super::StretchedBlade;
+use super::slopes::ANGLES;
 use crate::model::scene::Polar;
 
 /// Points (r, θ) of the blade, each with the values of the shapes at it.
@@ -16,8 +19,10 @@ impl StretchedBlade {
     /// Points distributed over the blade.
     pub fn sites(&self) -> Sites {
         let radii = self.plate.sampled_radii_m().step_by(EVERY);
-        let places =
-            radii.flat_map(|radius_m| angles().map(move |angle| Polar::new(radius_m, angle)));
+        let angles = |radius_m| {
+            (0..ANGLES).map(move |k| Polar::new(radius_m, TAU * k as f64 / ANGLES as f64))
+        };
+        let places = radii.flat_map(angles);
         Sites(places.map(|place| (place, self.shapes_at(place))).collect())
     }
 }

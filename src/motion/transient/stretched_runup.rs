@@ -111,8 +111,8 @@ pub fn stretched_run_up(
 }
 
 /// The record of the probe.
-struct Samples<'a> {
-    probe: StretchedProbe<'a>,
+struct Samples {
+    probe: StretchedProbe,
     speed_rad_per_s: Vec<f64>,
     deflection_m: Vec<f64>,
     /// Largest magnitude of the deflection of the rim, and its speed.
@@ -120,11 +120,11 @@ struct Samples<'a> {
     valid_until_rad_per_s: Option<f64>,
 }
 
-impl Samples<'_> {
+impl Samples {
     /// Adds a sample; returns false if slopes are too large.
     fn take(&mut self, state: &State, speed_rad_per_s: f64) -> bool {
         let is_looked_at = self.deflection_m.len().is_multiple_of(LOOKED);
-        if is_looked_at && !self.probe.holds(state, speed_rad_per_s) {
+        if is_looked_at && !self.probe.holds(state) {
             self.valid_until_rad_per_s = Some(speed_rad_per_s);
             return false;
         }
