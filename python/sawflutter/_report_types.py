@@ -2102,9 +2102,9 @@ class MappedSaw(Entry):
     state : Whether the saw is stable at the speed at which the saws are judged; null without
         such a speed.
     at_critical_rpm : Critical speed within 5 % of that speed; null if there is none.
-    side_force_factor : Deflection of the rim at the cut under a constant side force there at that
-        speed, relative to that at rest, as in the verdict of `analyze`; null without such a speed,
-        unless the saw is stable, and where no verdict gives it.
+    side_force_factor : Deflection of the rim at the cut under a constant side force there at
+        that speed, relative to that at rest, as in the verdict of `analyze`; null without such
+        a speed, unless the saw is stable, and where no verdict gives it.
     not_analysed : Reason for which the saw was not analysed; null if it was.
     """
 

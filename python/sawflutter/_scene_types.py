@@ -704,8 +704,8 @@ class SceneDict(_SceneDict, total=False):
     """Lines of the Campbell diagram at multiples of the rotation speed. None by default."""
 
     sweep: SweepDict | None
-    """Range of speeds; by default from rest to twice the first critical speed, or to the
-    fortieth."""
+    """Range of speeds; by default from rest to twice the first critical speed, or past an
+    operating speed of up to three times the first critical speed, or to the fortieth."""
 
     accuracy: Accuracy
     """Accuracy by name; a lower one is faster."""
