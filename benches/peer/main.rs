@@ -3,6 +3,7 @@
 //! Each time, in s, is the minimum over repeats (`REPEATS`, 5 by default), because other work on the machine can only
 //! lengthen it. `PLACE=1` adds a whole placement of the built-in saw, which takes a minute.
 
+use std::collections::BTreeMap;
 use std::time::Instant;
 
 use sawflutter::analyses::place::{Demands, Options, place};
@@ -12,7 +13,7 @@ use sawflutter::model::plate::{Plate, Resolution};
 use sawflutter::model::scene::{Accuracy, Freed, Scene, SceneFile, SpeedRange, SweepFile};
 use sawflutter::modes::{Assembled, SpectralModel, Strategy};
 use sawflutter::stability::{
-    Analysis, AnalysisOptions, ChosenBasis, Detail, chart, search_bands, undamped_bands,
+    Analysis, AnalysisOptions, ChosenBasis, Detail, Onsets, chart, search_bands, undamped_bands,
 };
 use serde_json::json;
 
@@ -32,6 +33,17 @@ const CHART_SPEEDS: usize = 51;
 const SWEEP: usize = 201;
 /// Number of frequencies of each speed that are compared with SciPy.
 const LOW_MODES: usize = 6;
+/// Scenes whose times have a budget, in the folder `scenes`.
+const SCENES: [&str; 8] = [
+    "free-blade",
+    "collar-400mm",
+    "paper",
+    "two-pads",
+    "gallery/six-pads",
+    "gallery/damped-pad",
+    "gallery/damped-material",
+    "gallery/in-cut-wood",
+];
 /// Largest numbers of nodal diameters and numbers of radial functions of bases with 85 to 4230 functions.
 const SIZES: [(usize, usize); 6] = [(8, 5), (16, 8), (24, 10), (38, 13), (56, 25), (70, 30)];
 
@@ -101,6 +113,9 @@ fn measured(repeats: usize) -> Result<serde_json::Value, Failure> {
                 "sweep to 6000 rpm": stages(1, &to_6000_rpm()?)?,
             }))
         })?,
+        "scenes_s": on_threads(1, || {
+            SCENES.iter().map(|name| Ok((*name, of_scene(name)?))).collect::<Result<BTreeMap<_, _>, Failure>>()
+        })?,
         "peak_memory_mb": peak_memory_mb(),
         "low_frequencies_rad_per_s": sweep()?,
     }))
@@ -167,6 +182,21 @@ fn stages(repeats: usize, scene: &Scene) -> Result<serde_json::Value, Failure> {
         "search for bands": bands,
         "drawing and proof": charted - bands,
         "estimates, names, root loci": whole - choice - reduction - charted,
+    }))
+}
+
+/// Time of each stage of the analysis of a scene in s, and of its critical speeds and bands alone.
+fn of_scene(name: &str) -> Result<serde_json::Value, Failure> {
+    let path = format!("{}/scenes/{name}.json", env!("CARGO_MANIFEST_DIR"));
+    let scene = Scene::from_path(path)?;
+    let timed = |work: &dyn Fn() -> Result<(), Failure>| fastest(2, work);
+    let choice = timed(&|| Ok(ChosenBasis::new(&scene, scene.tolerance()).map(|_| ())?))?;
+    let bands = timed(&|| Ok(Onsets::new(&scene).map(|_| ())?))?;
+    let whole = timed(&|| Ok(Analysis::new(&scene).map(|_| ())?))?;
+    Ok(json!({
+        "choice of the basis": choice,
+        "critical speeds and bands": bands - choice,
+        "rest of the chart": whole - bands,
     }))
 }
 

@@ -57,18 +57,47 @@ def main():
             error = worst_error(folder, rust, speeds, sampled)
     print(f"\nerror of the six lowest modes of the sweep at 264 functions: {error:.1e}")
     table(rust, once[264], whole_process(rust["repeats"]))
+    scenes(rust["scenes_s"], once[264])
 
 
-def whole_process(repeats):
+def whole_process(repeats, *arguments):
     """Seconds of `sawflutter analyze` with every picture, on one thread."""
     program = os.environ.get("SAWFLUTTER")
     if not program:
         return None
     environment = dict(os.environ, RAYON_NUM_THREADS="1")
     with tempfile.TemporaryDirectory() as folder:
-        command = [program, "analyze", "--out", folder]
+        command = [program, "analyze", *arguments, "--out", folder]
         run = lambda: subprocess.run(command, env=environment, check=True, stdout=subprocess.DEVNULL)
         return fastest(run, repeats)
+
+
+# Budget of the whole process for each scene in eigvals of order 528, at design and at draft.
+BUDGET = {
+    "free-blade": (0.5, 0.33),
+    "collar-400mm": (0.5, 0.33),
+    "paper": (1.2, 0.8),
+    "two-pads": (1.5, 1.0),
+    "gallery/six-pads": (15, 4),
+    "gallery/damped-pad": (2, 1.3),
+    "gallery/damped-material": (2, 1.3),
+    "gallery/in-cut-wood": (2.5, 1.7),
+}
+
+
+def scenes(stages_s, eigvals):
+    """Prints the run time of eight scenes, and of their stages, as ratios to one eigvals of order 528."""
+    stages = list(next(iter(stages_s.values())))
+    print(f"\n{'whole process, one thread':26} design (budget)   draft (budget)   " + "   ".join(stages))
+    for name, (design, draft) in BUDGET.items():
+        path = f"scenes/{name}.json"
+        wholes = [whole_process(2, path, "--accuracy", accuracy) for accuracy in ("design", "draft")]
+        cells = [
+            f"{'-' if whole is None else format(whole / eigvals, '.3g'):>6} ({budget:4})"
+            for whole, budget in zip(wholes, (design, draft))
+        ]
+        parts = [f"{stages_s[name][stage] / eigvals:{len(stage)}.2f}" for stage in stages]
+        print(f"{name:26} {cells[0]:>15}   {cells[1]:>14}   " + "   ".join(parts))
 
 
 def table(rust, eigvals, whole):
