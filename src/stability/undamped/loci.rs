@@ -20,7 +20,7 @@ pub struct RootLoci {
 }
 
 /// Speeds of the loci on each side of the band and within each half of it.
-const SPEEDS: usize = 20;
+const SPEEDS: usize = 16;
 
 impl RootLoci {
     /// The pair of a band from its peak to one width below and above the band, within a range, as far as a chart
