@@ -26,7 +26,7 @@ pub(crate) const PAST_THE_RANGE: f64 = 1.05;
 pub(crate) const CHARTED: usize = 40;
 
 /// Taken for the first critical speed of a blade without one.
-const NONE_BELOW_RPM: f64 = 1000.0;
+const ASSUMED_CRITICAL_RPM: f64 = 1000.0;
 /// A sweep that the program chooses goes on to this multiple of the operating speed, so that a critical speed within 5 % of it is seen.
 const ABOVE_OPERATING: f64 = 1.05;
 /// A sweep that the program chooses goes on to at most this multiple of the first critical speed: a saw with two pads takes 1.6 s to
@@ -251,7 +251,7 @@ pub(crate) fn is_cut_short(scene: &Scene, critical_rad_per_s: &[f64]) -> bool {
 /// Twice the first critical speed, or above the operating speed up to three times the first critical speed, but at most
 /// [`fastest_rad_per_s`]; in rad/s.
 pub(crate) fn usual_end(scene: &Scene, lowest_critical_rad_per_s: Option<f64>) -> f64 {
-    let lowest = lowest_critical_rad_per_s.map_or(NONE_BELOW_RPM, rpm);
+    let lowest = lowest_critical_rad_per_s.map_or(ASSUMED_CRITICAL_RPM, rpm);
     let operating = ABOVE_OPERATING * scene.file().operating_rpm.unwrap_or(0.0);
     let top = match operating / lowest {
         2.0..=FARTHEST => operating,

@@ -24,7 +24,9 @@ mod static_deflection;
 
 use faer::Scale;
 
-use crate::analyses::campbell::{InstabilityBand, Numbered, add_amplitudes, lifting_off};
+use crate::analyses::campbell::{
+    InstabilityBand, Numbered, add_amplitudes, lifting_off, near_critical,
+};
 use crate::analyses::deflect::PointLoad;
 use crate::model::scene::{Scene, SceneError, SpeedRange, rpm};
 use crate::modes::SpectrumError;
@@ -170,9 +172,8 @@ fn warnings(analysis: &Analysis, limits: &Limits, compared_gaps: usize) -> Vec<S
     let mut warnings: Vec<String> = lifting_off(scene).into_iter().collect();
     let operating = limits.operating_rad_per_s;
     if let Some(critical_rpm) = analysis.critical_rpm_at(operating) {
-        warnings.push(format!(
-            "the operating speed is within 5 % of the critical speed {critical_rpm:.1} rpm"
-        ));
+        let near = near_critical(critical_rpm);
+        warnings.push(format!("the operating speed is {near}"));
     }
     let gaps = scene.file().guides.iter().filter(|g| g.gap_m.is_some());
     if gaps.count() > compared_gaps {

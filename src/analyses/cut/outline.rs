@@ -1,12 +1,11 @@
 //! The text of a cut.
 
 use super::{CutAtSpeed, CutCriterion, CutReport, CutVerdict};
-use crate::analyses::campbell::Verdict;
+use crate::analyses::campbell::{Verdict, near_critical};
 use crate::motion::stretched_blade::LARGEST_SLOPE;
 use crate::motion::transient::LINEAR_THICKNESSES;
 use crate::page::outline::{Column, FREQUENCY, Fact, GROWTH, LENGTH, Outline, Table, Value};
 use crate::page::text::shown_to;
-use crate::stability::CRITICAL_MARGIN;
 
 pub fn outline(report: &CutReport) -> Outline {
     let mut text = Outline::of(
@@ -30,9 +29,8 @@ fn in_one_line(run: &CutAtSpeed, linear_limit_m: f64) -> String {
     match run.verdict {
         CutVerdict::Stable => format!("{rpm} rpm: stable"),
         CutVerdict::AtCritical => format!(
-            "{rpm} rpm: STABLE, but within {:.0} % of the critical speed{}",
-            100.0 * CRITICAL_MARGIN,
-            critical.map_or(String::new(), |critical| format!(" {critical:.1} rpm"))
+            "{rpm} rpm: STABLE, but {}",
+            critical.map_or("at a critical speed".to_owned(), near_critical)
         ),
         CutVerdict::LeavesModel if run.stretching.is_some() => format!(
             "{rpm} rpm: NO GROWTH, BUT THE DEFLECTION LEAVES THE MODEL: slopes of the blade exceed {LARGEST_SLOPE}, where the model with stretching ends"

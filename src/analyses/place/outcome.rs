@@ -98,10 +98,7 @@ impl Question {
             None => flutter.unwrap_or(self.range.to_rad_per_s),
             Some(_) => window.map_or(0.0, |range| range.width()),
         };
-        let is_in_band = |speed: f64| {
-            let mut ends = bands.iter().map(|b| b.from_rad_per_s..=b.to_rad_per_s);
-            ends.any(|band| band.contains(&speed))
-        };
+        let is_in_band = |speed: f64| bands.iter().any(|band| band.range().contains(speed));
         let is_stable = scene
             .operating_rad_per_s()
             .is_some_and(|speed| !is_in_band(speed));

@@ -144,32 +144,30 @@ impl<'a> Search<'a> {
 
     /// The saw within the bounds whose nominal cost is smallest, among those computed so far.
     pub fn cheapest(&self) -> Option<Tried> {
-        let known = self.known();
-        let all = known.iter().filter_map(|(key, found)| {
-            let shares: Vec<f64> = key.iter().map(|bits| f64::from_bits(*bits)).collect();
-            let is_inside = shares.iter().all(|share| (0.0..=1.0).contains(share));
-            let cost = found.as_ref().ok().filter(|_| is_inside)?.cost();
-            Some(Tried { shares, cost })
-        });
-        all.min_by(Tried::cheaper)
+        let all = self.inside(|saw| Some(saw.cost()));
+        let tried = all.into_iter().map(|(tried, _)| tried);
+        tried.min_by(Tried::cheaper)
     }
 
     /// The saws within the bounds that keep the limits and whose deflection at the cut is known, with it, sorted by nominal cost.
     pub fn deviating(&self) -> Vec<(Tried, f64)> {
+        let deviation_m = |saw: &Computed| saw.deviation_m.filter(|_| saw.outcome.kept);
+        let mut all = self.inside(deviation_m);
+        all.sort_by(|(x, _), (y, _)| x.cheaper(y));
+        all
+    }
+
+    /// The saws within the bounds among those computed so far, each with a number of it; those without the number are omitted.
+    fn inside(&self, number: impl Fn(&Computed) -> Option<f64>) -> Vec<(Tried, f64)> {
         let known = self.known();
         let all = known.iter().filter_map(|(key, found)| {
             let shares: Vec<f64> = key.iter().map(|bits| f64::from_bits(*bits)).collect();
             let is_inside = shares.iter().all(|share| (0.0..=1.0).contains(share));
-            let saw = found
-                .as_ref()
-                .ok()
-                .filter(|saw| is_inside && saw.outcome.kept)?;
+            let saw = found.as_ref().ok().filter(|_| is_inside)?;
             let cost = saw.cost();
-            Some((Tried { shares, cost }, saw.deviation_m?))
+            Some((Tried { shares, cost }, number(saw)?))
         });
-        let mut all: Vec<_> = all.collect();
-        all.sort_by(|(x, _), (y, _)| x.cheaper(y));
-        all
+        all.collect()
     }
 
     /// Computes `count` saws on all threads and returns, in their order, the values that `kept` makes of shares and

@@ -78,7 +78,6 @@ pub fn runup(scene: &Scene, progress: Progress<'_>) -> Result<RunUpReport, Trans
             band,
         })
         .collect();
-    let (largest_m, largest_rad_per_s) = history.largest;
     Ok(RunUpReport {
         sawflutter: chart.sawflutter,
         scene: scene.file().clone(),
@@ -93,8 +92,8 @@ pub fn runup(scene: &Scene, progress: Progress<'_>) -> Result<RunUpReport, Trans
         linear_until_rpm,
         rpm: record_rpm,
         deflection_m: history.deflection_m,
-        largest_deflection_m: largest_m,
-        largest_deflection_rpm: rpm(largest_rad_per_s),
+        largest_deflection_m: history.largest.deflection_m,
+        largest_deflection_rpm: rpm(history.largest.speed_rad_per_s),
         critical_speeds: chart.critical_speeds,
         first_doubling_rpm: first_doubling_rpm(&bands),
         bands,

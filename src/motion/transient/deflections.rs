@@ -22,6 +22,35 @@ pub(crate) struct Deflections {
     pub largest_m: f64,
 }
 
+/// The largest deflection of a motion.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Largest {
+    /// Magnitude, in m.
+    pub deflection_m: f64,
+    /// Rotation speed at which the blade deflects that far.
+    pub speed_rad_per_s: f64,
+}
+
+impl Largest {
+    /// That of a motion that begins undeflected at a speed.
+    pub fn from(speed_rad_per_s: f64) -> Self {
+        Largest {
+            deflection_m: 0.0,
+            speed_rad_per_s,
+        }
+    }
+
+    /// Takes the deflections at a speed into account.
+    pub fn include(&mut self, read: Deflections, speed_rad_per_s: f64) {
+        if read.largest_m > self.deflection_m {
+            *self = Largest {
+                deflection_m: read.largest_m,
+                speed_rad_per_s,
+            };
+        }
+    }
+}
+
 /// What reads the deflections from the coordinates of a motion on a reduced basis.
 #[derive(Debug)]
 pub(crate) struct Reader {

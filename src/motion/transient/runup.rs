@@ -10,6 +10,7 @@ use crate::model::system::GyroscopicSystem;
 use crate::modes::Cancellation;
 use crate::modes::branches::Progress;
 
+use super::deflections::Largest;
 use super::linear_limit::Gauge;
 use super::reduced_blade::{ReducedBlade, Snapshot, at_point};
 use super::{Force, Integrator, Newmark, State, TransientError};
@@ -21,8 +22,8 @@ pub(crate) struct RunUpHistory {
     pub speed_rad_per_s: Vec<f64>,
     /// Deflection at the probe.
     pub deflection_m: Vec<f64>,
-    /// Largest magnitude of the deflection of the rim, and its speed in rad/s.
-    pub largest: (f64, f64),
+    /// Largest deflection of the rim.
+    pub largest: Largest,
     /// Speed at which the deflection exceeds the linear model, and the record ends; `None` if it does not.
     pub linear_until_rad_per_s: Option<f64>,
     /// Time step.
@@ -82,7 +83,7 @@ pub fn run_up(
     let mut history = RunUpHistory {
         speed_rad_per_s: Vec::new(),
         deflection_m: Vec::new(),
-        largest: (0.0, from),
+        largest: Largest::from(from),
         linear_until_rad_per_s: None,
         step_s: steps.step_s,
     };
@@ -192,9 +193,7 @@ impl RunUpHistory {
         }
         self.speed_rad_per_s.push(speed_rad_per_s);
         self.deflection_m.push(read.at_probe_m);
-        if read.largest_m > self.largest.0 {
-            self.largest = (read.largest_m, speed_rad_per_s);
-        }
+        self.largest.include(read, speed_rad_per_s);
         Ok(true)
     }
 }

@@ -9,6 +9,7 @@ use crate::model::scene::{Point, RunUpFile, SideForce};
 use crate::modes::branches::Progress;
 use crate::motion::stretched_blade::StretchedBlade;
 
+use super::deflections::Largest;
 use super::runup::{MAX_SAMPLES, Moving, RunUpHistory, Steps};
 use super::stretched_probe::StretchedProbe;
 use super::stretching::{forces, system};
@@ -81,7 +82,7 @@ pub fn stretched_run_up(
         probe: StretchedProbe::new(&blade, &plate.blade, probe),
         speed_rad_per_s: Vec::new(),
         deflection_m: Vec::new(),
-        largest: (0.0, from),
+        largest: Largest::from(from),
         valid_until_rad_per_s: None,
     };
     steps.integrate(&moving, begun, (STRIDE, progress), |state, (speed, _)| {
@@ -115,8 +116,8 @@ struct Samples {
     probe: StretchedProbe,
     speed_rad_per_s: Vec<f64>,
     deflection_m: Vec<f64>,
-    /// Largest magnitude of the deflection of the rim, and its speed.
-    largest: (f64, f64),
+    /// Largest deflection of the rim.
+    largest: Largest,
     valid_until_rad_per_s: Option<f64>,
 }
 
@@ -131,9 +132,7 @@ impl Samples {
         self.speed_rad_per_s.push(speed_rad_per_s);
         let read = self.probe.read(state);
         self.deflection_m.push(read.at_probe_m);
-        if read.largest_m > self.largest.0 {
-            self.largest = (read.largest_m, speed_rad_per_s);
-        }
+        self.largest.include(read, speed_rad_per_s);
         true
     }
 

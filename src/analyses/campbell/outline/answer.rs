@@ -2,7 +2,8 @@
 
 use super::is_damped;
 use crate::analyses::campbell::{
-    InstabilityBand, InstabilityKind, OperatingPoint, Report, StabilityState, side_force_in_words,
+    InstabilityBand, InstabilityKind, OperatingPoint, Report, StabilityState, near_critical,
+    side_force_in_words,
 };
 use crate::model::scene::Accuracy;
 use crate::page::outline::{Outline, SPEED};
@@ -229,10 +230,7 @@ fn at_critical_speed(report: &Report, operating: &OperatingPoint) -> Option<Stri
     let rpm = operating.at_critical_rpm?;
     let critical = report.critical_speeds.iter().find(|c| c.rpm == rpm);
     let name = critical.map_or(String::new(), |c| format!(" ({})", c.name));
-    Some(format!(
-        "within {:.0} % of the critical speed {rpm:.1} rpm{name}",
-        100.0 * CRITICAL_MARGIN
-    ))
+    Some(format!("{}{name}", near_critical(rpm)))
 }
 
 /// Compares the operating speed with the 85 % rule; `None` without a critical speed.

@@ -1,6 +1,6 @@
 //! The modes at one speed.
 
-use crate::analyses::campbell::{Report, StabilityState, WhirlMode};
+use crate::analyses::campbell::{Report, StabilityState, WhirlMode, near_critical};
 use crate::page::outline::{Column, FREQUENCY, GROWTH, Outline, PERCENT, PLAIN, Table, Value};
 
 /// Adds the verdict at one speed, and the frequencies, growth rates and names of its modes: with damping ratio
@@ -16,9 +16,9 @@ pub fn whirl(text: &mut Outline, report: &Report) {
         StabilityState::TooClose => "TOO CLOSE TO CALL at the edge of a band",
         StabilityState::OutsideSweep => "outside the sweep",
     };
-    let critical = whirl.at_critical_rpm.map_or(String::new(), |rpm| {
-        format!(", within 5 % of the critical speed {rpm:.1} rpm")
-    });
+    let critical = whirl
+        .at_critical_rpm
+        .map_or(String::new(), |rpm| format!(", {}", near_critical(rpm)));
     let title = format!("Modes at {} rpm: {state}{critical}", whirl.rpm);
     let is_damped = whirl.modes.iter().any(|mode| mode.damping_ratio.is_some());
     let mut columns = vec![
