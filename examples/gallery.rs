@@ -228,6 +228,6 @@ fn place(scene: &Scene) -> anyhow::Result<PlaceReport> {
         &[radius, angle],
         &demands,
         &options,
-        &|_, _, _| (),
+        &|_| (),
     )?)
 }

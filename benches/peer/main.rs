@@ -221,7 +221,7 @@ fn placed() -> Result<(), Failure> {
         .into_iter()
         .collect::<Result<_, _>>()?;
     let (demands, options) = (Demands::default(), Options::default());
-    place(&scene, &freed, &demands, &options, &|_, _, _| ())?;
+    place(&scene, &freed, &demands, &options, &|_| ())?;
     Ok(())
 }
 

@@ -339,7 +339,7 @@ fn place(options: &Options<'_>) -> PyResult<Work> {
         };
         let options = options.checked()?;
         let freed = Freed::to_place(scene, &free)?;
-        let progress = |what, done, of| meter.show_of(what, done, of);
+        let progress = |step: place::Step| meter.show_of(step.what, step.done, step.of);
         json(&place::place(scene, &freed, &demands, &options, &progress)?)
     }))
 }

@@ -12,7 +12,7 @@ use std::sync::{Mutex, MutexGuard, PoisonError};
 use serde::Serialize;
 
 /// Stage of a computation.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize)]
 pub struct Stage {
     /// Name of the counted items; empty between two loops.
     pub what: &'static str,
@@ -22,6 +22,9 @@ pub struct Stage {
     pub of: usize,
     /// Number of eigenproblems, and of work items of similar size, since the computation began.
     pub eigenproblems: usize,
+    /// The best result of a search so far, a speed in rpm.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub best_rpm: Option<f64>,
 }
 
 /// The progress callback of a computation; none by default.
@@ -69,6 +72,13 @@ impl Progress {
             shared.at(what, done, of);
         }
     }
+
+    /// Shows the best result of a search, a speed in rpm, from the next stage on.
+    pub fn show_best(&self, best_rpm: Option<f64>) {
+        if let Some(shared) = &self.0 {
+            shared.stage().best_rpm = best_rpm;
+        }
+    }
 }
 
 impl Shared {
@@ -84,6 +94,7 @@ impl Shared {
             done,
             of,
             eigenproblems,
+            best_rpm: stage.best_rpm,
         };
         (self.callback)(*stage);
     }

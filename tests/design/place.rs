@@ -2,6 +2,8 @@
 //!
 //! Sources: symmetry (guides that turn together give the same saw), and brute force.
 
+use std::sync::Mutex;
+
 use crate::common::{assert_close, scene};
 use faer::Col;
 use faer::linalg::solvers::Solve;
@@ -9,7 +11,7 @@ use rayon::prelude::*;
 use sawflutter::analyses::commands::CommandReport;
 use sawflutter::analyses::gap;
 use sawflutter::analyses::place::{
-    self, Demands, FrontSaw, GapDemands, Options, PlaceError, PlaceReport, Tolerances,
+    self, Demands, FrontSaw, GapDemands, Options, PlaceError, PlaceReport, Step, Tolerances,
 };
 use sawflutter::analyses::response::{self, response};
 use sawflutter::model::plate::{Plate, Resolution};
@@ -51,7 +53,7 @@ fn swept(name: &str) -> Scene {
 }
 
 fn place(scene: &Scene, freed: &[Freed], demands: &Demands, options: &Options) -> PlaceReport {
-    place::place(scene, freed, demands, options, &|_, _, _| ()).unwrap()
+    place::place(scene, freed, demands, options, &|_| ()).unwrap()
 }
 
 /// Bands of a saw by other functions of the library than those of `place`.
@@ -236,7 +238,21 @@ fn no_saw_of_the_map_is_better_than_the_front_in_both_respects() {
         .unwrap();
     let free = freed(&saw, &[(RADIUS, 0.22, 0.28), (ANGLE, -100.0, -20.0)]);
     let options = Options { map: 4, ..quick() };
-    let found = place(&saw, &free, &Demands::default(), &options);
+    let shown = Mutex::new(Vec::new());
+    let see = |step: Step| shown.lock().unwrap().push(step.best_rpm);
+    let found = place::place(&saw, &free, &Demands::default(), &options, &see).unwrap();
+    // The best saw so far is none before neighbours are computed, and at last the answer.
+    let shown = shown.into_inner().unwrap();
+    assert_eq!(shown[0], None);
+    let best_rpm = shown[shown.len() - 1].unwrap();
+    let answer_rpm = found
+        .worst_neighbour
+        .as_ref()
+        .unwrap()
+        .outcome
+        .unwrap()
+        .goal_rpm;
+    assert_close("best so far", best_rpm, answer_rpm, 1e-9);
     let at = |values: &[f64]| with(&saw, &[(RADIUS, values[0]), (ANGLE, values[1])]);
     assert!(found.front.len() > 1, "{:?}", found.front);
     assert_eq!(found.force_n, Some(1.0));
@@ -385,7 +401,7 @@ fn the_gap_is_as_narrow_as_the_deflection_demands() {
     let deflection_m = row[of(&map.forces_n, 2.0)].unwrap();
     // This test's basis is a small one.
     assert!(deflection_m < 1.02 * 3e-4, "{deflection_m}");
-    let idle = place::place(&saw, &free, &Demands::default(), &quick(), &|_, _, _| ());
+    let idle = place::place(&saw, &free, &Demands::default(), &quick(), &|_| ());
     assert!(matches!(idle, Err(PlaceError::NothingFree)));
 }
 

@@ -130,7 +130,7 @@ pub fn settle(
     let (done, of) = (AtomicUsize::new(0), budget as usize * starts.len());
     let see = || {
         let done = done.fetch_add(1, Ordering::Relaxed) + 1;
-        progress("refinement", done.min(of), of);
+        progress(search.step("refinement", done.min(of), of));
     };
     let refined: Vec<Tried> = starts
         .par_iter()

@@ -207,8 +207,21 @@ impl Options {
     }
 }
 
-/// Progress callback: name of the step, number of its finished saws, number of all its saws.
-pub type Progress<'a> = &'a (dyn Fn(&'static str, usize, usize) + Sync);
+/// Progress callback.
+pub type Progress<'a> = &'a (dyn Fn(Step) + Sync);
+
+/// Progress of a search.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Step {
+    /// Name of the step.
+    pub what: &'static str,
+    /// Number of finished saws of the step.
+    pub done: usize,
+    /// Number of all saws of the step.
+    pub of: usize,
+    /// Highest value of the goal in the worst case of the tolerances among the saws of this basis that keep the limits.
+    pub best_rpm: Option<f64>,
+}
 
 #[cfg(test)]
 mod tests {

@@ -57,7 +57,7 @@ pub fn through(search: &Search<'_>, at: &[f64], points: usize, progress: Progres
         shares
     };
     let total = points * if y.is_some() { points } else { 1 };
-    let see = |done| progress("map", done, total);
+    let see = |done| progress(search.step("map", done, total));
     let computed = search.each(total, shares_of, &see, |shares, saw| {
         let outcome = saw.as_ref().map(|saw| saw.outcome);
         (Tried::new(shares, saw.as_ref()), outcome)

@@ -19,7 +19,7 @@
 //! let radius = Freed::new(scene.file(), "guides[0].radius_m", 0.18, 0.28)?;
 //! let resolution = Some(Resolution { max_diameters: 7, radial_functions: 3 });
 //! let options = Options { resolution, samples: 4, places: 1, refine: 6, map: 0, ..Options::default() };
-//! let found = place(&scene, &[radius], &Demands::default(), &options, &|_, _, _| ())?;
+//! let found = place(&scene, &[radius], &Demands::default(), &options, &|_| ())?;
 //! println!("{:.0} rpm", found.best.goal_rpm);
 //! assert!(found.kept);
 //! # Ok::<(), Box<dyn std::error::Error>>(())
@@ -51,7 +51,7 @@ use crate::modes::Cancellation;
 use crate::stability::ChosenBasis;
 
 use choice::{Choice, Weighed, basis_of_all, settle};
-pub use demands::{Demands, GapDemands, Options, Progress, Tolerances};
+pub use demands::{Demands, GapDemands, Options, Progress, Step, Tolerances};
 pub use error::PlaceError;
 use map::Mapped;
 use neighbours::Neighbours;
@@ -257,7 +257,9 @@ fn look_everywhere(
     progress: Progress<'_>,
 ) -> Result<Looked, PlaceError> {
     let samples = options.samples.max(1);
-    let tried = search.sample(own, samples, &|done| progress("samples", done, samples));
+    let tried = search.sample(own, samples, &|done| {
+        progress(search.step("samples", done, samples));
+    });
     Cancellation::current().check()?;
     if tried.first().is_none_or(|best| best.cost >= REFUSED) {
         return Err(PlaceError::NoSaw { tried: samples });
@@ -267,7 +269,7 @@ fn look_everywhere(
     let (done, budget) = (AtomicUsize::new(0), options.refine as usize * starts.len());
     let see = || {
         let done = done.fetch_add(1, Ordering::Relaxed) + 1;
-        progress("refinement", done.min(budget), budget);
+        progress(search.step("refinement", done.min(budget), budget));
     };
     let refined = |start: &Tried| search.refine(start, COARSE_STEPS, options.refine, &see);
     let mut candidates: Vec<Tried> = starts.par_iter().map(refined).collect();

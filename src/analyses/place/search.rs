@@ -14,8 +14,9 @@ use std::sync::{Mutex, MutexGuard, PoisonError};
 
 use rayon::prelude::*;
 
-use crate::model::scene::{Freed, SceneFile, scene_at, spread};
+use crate::model::scene::{Freed, SceneFile, rpm, scene_at, spread};
 
+use super::demands::Step;
 use super::outcome::{Computed, Question, REFUSED};
 
 /// The result of a saw, or the reason why it could not be computed (`None` if there is no such saw).
@@ -28,6 +29,8 @@ pub struct Search<'a> {
     question: Question,
     /// Results by the bits of the shares.
     known: Mutex<HashMap<Vec<u64>, Known>>,
+    /// Smallest cost in the worst case of the tolerances among the saws whose neighbours are all computed.
+    least_worst: Mutex<f64>,
 }
 
 /// Shares and their cost.
@@ -90,6 +93,30 @@ impl<'a> Search<'a> {
             freed,
             question,
             known: Mutex::default(),
+            least_worst: Mutex::new(REFUSED),
+        }
+    }
+
+    /// Counts a saw all of whose neighbours are computed.
+    pub fn rated(&self, worst_cost: f64) {
+        let mut least = self.least_worst();
+        *least = least.min(worst_cost);
+    }
+
+    fn least_worst(&self) -> MutexGuard<'_, f64> {
+        self.least_worst
+            .lock()
+            .unwrap_or_else(PoisonError::into_inner)
+    }
+
+    /// Progress of a step, with the best saw so far.
+    pub fn step(&self, what: &'static str, done: usize, of: usize) -> Step {
+        let least = *self.least_worst();
+        Step {
+            what,
+            done,
+            of,
+            best_rpm: (least <= 0.0).then(|| rpm(-least)),
         }
     }
 

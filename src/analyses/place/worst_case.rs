@@ -70,7 +70,7 @@ impl Search<'_> {
         let (first, others) = order.split_at(1);
         for some in std::iter::once(first).chain(others.chunks(AT_A_TIME)) {
             if worst > limit {
-                break;
+                return worst;
             }
             let cost_of = |place: &usize| {
                 let cost = self.cost(&self.moved(shares, &all[*place])?.shares);
@@ -83,6 +83,7 @@ impl Search<'_> {
                 }
             }
         }
+        self.rated(worst);
         worst
     }
 

@@ -1,7 +1,7 @@
 //! `sawflutter place`.
 
 use crate::analyses::commands::Argument;
-use crate::analyses::place::{Demands, GapDemands, Options, Tolerances, place};
+use crate::analyses::place::{Demands, GapDemands, Options, Step, Tolerances, place};
 use crate::model::scene::{Freed, RefusedValue, Scene};
 use clap::{Args, ValueEnum};
 
@@ -112,7 +112,10 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<bool> {
     arguments.page.tried()?;
     let folder = arguments.common.folder()?;
     let report = watched(|progress| {
-        let steps = |what, done, of| progress.show(what, done, of);
+        let steps = |step: Step| {
+            progress.show_best(step.best_rpm);
+            progress.show(step.what, step.done, step.of);
+        };
         place(&scene, &freed, &demands, &options, &steps)
     })??;
     // A saw that misses a limit is no result to go on with.

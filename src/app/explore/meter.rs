@@ -44,8 +44,15 @@ impl<'a> Meter<'a> {
 
     /// Sends the number of finished items of a kind, unless the interval has not passed.
     pub fn show(&self, what: &str, done: usize, of: usize) {
+        self.show_with_best(what, done, of, None);
+    }
+
+    /// Sends the same, with the best result of a search so far, a speed in rpm.
+    pub fn show_with_best(&self, what: &str, done: usize, of: usize, best_rpm: Option<f64>) {
         if self.is_due(&self.told, PAUSE_MS) {
-            self.send(serde_json::json!({ "what": what, "done": done, "of": of }));
+            self.send(serde_json::json!({
+                "what": what, "done": done, "of": of, "best_rpm": best_rpm,
+            }));
         }
     }
 

@@ -175,7 +175,9 @@ fn place(scene: Scene, asked: &Asked, meter: &Meter<'_>) -> Result<String, Refus
     };
     let demands = Demands::new(around_rpm, limit).map_err(|_| Refusal::with_message(NO_LIMIT))?;
     let freed = Freed::to_place(&scene, &[])?;
-    let progress = |what: &'static str, done, of| meter.show(what, done, of);
+    let progress = |step: place::Step| {
+        meter.show_with_best(step.what, step.done, step.of, step.best_rpm);
+    };
     let options = place::Options::default();
     let report = place::place(&scene, &freed, &demands, &options, &progress)
         .map_err(|error| Refusal::of(&error))?;

@@ -85,7 +85,7 @@ export const write = (scene) => post("file", JSON.stringify(scene));
 // The file that the command line would write for this scene. `shown` is the identifier of the scene's chart, or null.
 export const saved = async (name, scene, shown, signal) => (await post(`save/${name}`, JSON.stringify(scene), signal, shown ?? "")).blob();
 
-// Computes a task and returns its answer. `onProgress({ what, done, of })` and `onFigures([[name, svg]])` are called in
+// Computes a task and returns its answer. `onProgress({ what, done, of, best_rpm })` and `onFigures([[name, svg]])` are called in
 // the meantime.
 export async function task(name, text, signal, { onProgress, onFigures }) {
   const answer = await post(`task/${name}`, text, signal);

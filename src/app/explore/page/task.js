@@ -141,10 +141,11 @@ export class Task {
     this.so_far.textContent = on ? "waits for another computation …" : isPart ? `ended early, ${this.so_far.textContent}` : "";
   }
 
-  #tell({ what, done, of }) {
+  #tell({ what, done, of, best_rpm }) {
     this.bar.max = of;
     this.bar.value = done;
-    this.so_far.textContent = `${what}: ${done} of ${of}`;
+    const best = best_rpm > 0 ? `, best so far ${Math.round(best_rpm)} rpm` : "";
+    this.so_far.textContent = `${what}: ${done} of ${of}${best}`;
   }
 
   #grow([[, svg]], saw) {
