@@ -111,6 +111,36 @@ class MountCollarDict(TypedDict):
 MountDict: TypeAlias = MountSplineDict | MountCollarDict
 
 
+class _GuideArmDict(TypedDict):
+    """The arm that holds a guide pad: the springs and dampers of the pad stand on a rigid head
+    that moves across the plane of the blade, and the arm holds the head. Without an arm they
+    stand on the frame."""
+
+    stiffness_n_per_m: float
+    """Lateral stiffness of the arm at its head. A cantilever of length l and second moment of
+    area I has 3EI/l³. Typically 2.5e6, from 500000 to 7e7 (computed from 3EI/l³ for steel arms
+    of 40 mm by 20 mm, bent over the 40 mm, 0.5 to 0.1 m long; 0.3 m is usual)."""
+
+
+class GuideArmDict(_GuideArmDict, total=False):
+    """The arm that holds a guide pad: the springs and dampers of the pad stand on a rigid head
+    that moves across the plane of the blade, and the arm holds the head. Without an arm they
+    stand on the frame."""
+
+    mass_kg: float
+    """Mass that moves with the head: that of the head, and a share of that of the arm, 33/140
+    of a cantilever. Zero by default: pad and arm are then springs in series. Typically 1.5,
+    from 0.3 to 5 (assumption of this program: a steel block of 50 mm by 50 mm by 50 mm and
+    33/140 of the arm's mass)."""
+
+    damping_n_s_per_m: float
+    """Lateral viscous damping between head and frame."""
+
+    loss_factor: float
+    """Loss factor of the arm in place of its damping: viscous damping that has this loss factor
+    at the frequency of the head on its arm without the blade."""
+
+
 class _GuideDict(TypedDict):
     """A guide pad with one length along and one across the radius at its centre. With zero size
     it is a point spring."""
@@ -162,6 +192,9 @@ class GuideDict(_GuideDict, total=False):
     offset_m: float
     """Lateral offset of the middle between the faces of a one-sided pad from the plane of the
     flat blade, positive in the direction of positive deflection. Zero by default."""
+
+    arm: GuideArmDict | None
+    """The arm that holds the pad. By default the pad stands on the frame."""
 
 
 class _FrictionDict(TypedDict):
@@ -893,23 +926,30 @@ NumberPath: TypeAlias = Literal[
     "guides[3].gap_m", "guides[0].film_stiffness_n_per_m", "guides[1].film_stiffness_n_per_m",
     "guides[2].film_stiffness_n_per_m", "guides[3].film_stiffness_n_per_m",
     "guides[0].offset_m", "guides[1].offset_m", "guides[2].offset_m", "guides[3].offset_m",
-    "friction.coefficient", "friction.heat_share", "friction.convection_w_per_m2_k",
-    "friction.conductivity_w_per_m_k", "damping.material_retardation_time_s",
-    "damping.loss_factor", "damping.air_n_s_per_m3", "damping.air_rotation_share",
-    "membrane.temperature.expansion_per_k", "membrane.temperature.rim_rise_k",
-    "membrane.temperature.from_radius_m", "membrane.temperature.exponent",
-    "membrane.straight_edge.length_m", "membrane.straight_edge.support_radius_m",
-    "membrane.straight_edge.measured_gap_m", "spline.teeth", "spline.pressure_angle_deg",
-    "spline.contact_stiffness_n_per_m_3_2", "spline.contact_damping_n_s_3_2_per_m_3_2",
-    "spline.clearance_m", "spline.pitch_radius_m", "spline.weight_angle_deg", "operating_rpm",
-    "excitation.orders", "excitation.tooth_passing", "sweep.from_rpm", "sweep.to_rpm",
-    "tolerance", "flutter_threshold_per_s", "cut.angle_deg", "cut.depth_m", "cut.teeth_in_cut",
-    "cut.tangential_n_per_tooth", "cut.radial_n_per_tooth", "cut.lateral_n_per_tooth",
-    "cut.power_w", "cut.feed_m_per_s", "cut.board_length_m", "cut.idle_s", "cut.chart_rpm",
-    "cut.wood.stiffness_n_per_m", "cut.wood.damping_n_s_per_m", "cut.wood.depth_m",
-    "cut.wood.arc_deg", "cut.washboarding.stiffness_n_per_m", "cut.washboarding.overlap",
-    "cut.washboarding.arc_deg", "side_force.force_n", "side_force.radius_m",
-    "side_force.angle_deg", "side_force.oscillating_n", "side_force.order", "runup.from_rpm",
-    "runup.to_rpm", "runup.duration_s", "response.runout_m", "response.flatness_m",
-    "response.imbalance_kg_m2", "probe.radius_m", "probe.angle_deg"
+    "guides[0].arm.stiffness_n_per_m", "guides[1].arm.stiffness_n_per_m",
+    "guides[2].arm.stiffness_n_per_m", "guides[3].arm.stiffness_n_per_m",
+    "guides[0].arm.mass_kg", "guides[1].arm.mass_kg", "guides[2].arm.mass_kg",
+    "guides[3].arm.mass_kg", "guides[0].arm.damping_n_s_per_m",
+    "guides[1].arm.damping_n_s_per_m", "guides[2].arm.damping_n_s_per_m",
+    "guides[3].arm.damping_n_s_per_m", "guides[0].arm.loss_factor", "guides[1].arm.loss_factor",
+    "guides[2].arm.loss_factor", "guides[3].arm.loss_factor", "friction.coefficient",
+    "friction.heat_share", "friction.convection_w_per_m2_k", "friction.conductivity_w_per_m_k",
+    "damping.material_retardation_time_s", "damping.loss_factor", "damping.air_n_s_per_m3",
+    "damping.air_rotation_share", "membrane.temperature.expansion_per_k",
+    "membrane.temperature.rim_rise_k", "membrane.temperature.from_radius_m",
+    "membrane.temperature.exponent", "membrane.straight_edge.length_m",
+    "membrane.straight_edge.support_radius_m", "membrane.straight_edge.measured_gap_m",
+    "spline.teeth", "spline.pressure_angle_deg", "spline.contact_stiffness_n_per_m_3_2",
+    "spline.contact_damping_n_s_3_2_per_m_3_2", "spline.clearance_m", "spline.pitch_radius_m",
+    "spline.weight_angle_deg", "operating_rpm", "excitation.orders", "excitation.tooth_passing",
+    "sweep.from_rpm", "sweep.to_rpm", "tolerance", "flutter_threshold_per_s", "cut.angle_deg",
+    "cut.depth_m", "cut.teeth_in_cut", "cut.tangential_n_per_tooth", "cut.radial_n_per_tooth",
+    "cut.lateral_n_per_tooth", "cut.power_w", "cut.feed_m_per_s", "cut.board_length_m",
+    "cut.idle_s", "cut.chart_rpm", "cut.wood.stiffness_n_per_m", "cut.wood.damping_n_s_per_m",
+    "cut.wood.depth_m", "cut.wood.arc_deg", "cut.washboarding.stiffness_n_per_m",
+    "cut.washboarding.overlap", "cut.washboarding.arc_deg", "side_force.force_n",
+    "side_force.radius_m", "side_force.angle_deg", "side_force.oscillating_n",
+    "side_force.order", "runup.from_rpm", "runup.to_rpm", "runup.duration_s",
+    "response.runout_m", "response.flatness_m", "response.imbalance_kg_m2", "probe.radius_m",
+    "probe.angle_deg"
 ]

@@ -22,7 +22,8 @@ class Matrices(Entry):
 
     q'' + (2 Ω G + C) q' + (K + Ω² S + Ω N) q = f, Ω in rad/s; the mass matrix is the identity. The
     basis functions for n = 0 nodal diameters are the radial functions; for each n ≥ 1 they are the
-    radial functions times cos nθ, followed by those times sin nθ.
+    radial functions times cos nθ, followed by those times sin nθ. An unknown √m h for each head of a
+    guide arm, with mass m and deflection h, follows those of n = 0.
 
     Attributes
     ----------

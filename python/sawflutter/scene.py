@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import math
 import os
 import tempfile
 from collections.abc import Iterable, Iterator, Mapping
@@ -21,7 +22,7 @@ from ._progress import Progress, reporting
 from ._report_types import Mode
 from ._result import R
 from ._scene_types import (
-    Accuracy, BladeDict, ContactLaw, CutDict, GuideDict, GuideShape, GuideSide, MountDict, NumberPath, SceneDict,
+    Accuracy, BladeDict, ContactLaw, CutDict, GuideArmDict, GuideDict, GuideShape, GuideSide, MountDict, NumberPath, SceneDict,
 )  # fmt: skip
 from ._values import Number, number, numbers, optional, whole
 from .checks import CheckResults
@@ -368,6 +369,7 @@ class Scene(Drawn, Mapping[str, Value]):
         side: GuideSide | None = None,
         film_stiffness_n_per_m: Number | None = None,
         offset_m: Number | None = None,
+        arm: GuideArmDict | None = None,
     ) -> Self:
         """Returns the scene with one more guide at the end of :attr:`guides`. The arguments are the
         keys of a guide in a scene file; those that are not given are copied from the last guide.
@@ -862,7 +864,8 @@ class Scene(Drawn, Mapping[str, Value]):
         found, diameters, functions = _native.matrices(scene, basis=basis)
         arrays: dict[str, Any] = {"damping": None, "circulatory": None}
         for name, values in found.items():
-            arrays[name] = np.frombuffer(values, "<f8").reshape((2 * diameters + 1) * functions, -1)
+            flat = np.frombuffer(values, "<f8")
+            arrays[name] = flat.reshape(math.isqrt(flat.size), -1)
         return Matrices(**arrays, max_diameters=diameters, radial_functions=functions, _scene=scene)
 
     def run_stiffness_map(

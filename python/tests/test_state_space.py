@@ -29,6 +29,22 @@ def test_modes_are_those_of_the_library(damped: sf.Scene) -> None:
     assert np.allclose(growth, np.sort(lowest), rtol=1e-4)
 
 
+def test_the_head_of_an_arm_is_a_state(damped: sf.Scene) -> None:
+    arm = {"stiffness_n_per_m": 5e5, "mass_kg": 2.0, "damping_n_s_per_m": 20.0}
+    saw = damped.replace({"guides[0].arm": arm})
+    m = saw.matrices(basis=(12, 6))
+    assert len(m.stiffness) == len(damped.matrices(basis=(12, 6)).stiffness) + 1
+    # The head does not turn, and no point of the blade moves it.
+    assert not m.spin[6].any() and not m.gyroscopic[6].any()
+    assert m.at(0.355, 20.0)[6] == 0.0
+    found = saw.modes(rpm=1200)
+    space = saw.matrices().state_space(1200, inputs=RIM, outputs=RIM, to_hz=60)
+    values = np.linalg.eigvals(space.A)
+    hz = np.sort(values[values.imag > 0].imag) / (2 * np.pi)
+    expected = np.sort([mode.frequency_hz for mode in found if mode.frequency_hz <= 60])
+    assert np.allclose(hz, expected, rtol=1e-6)
+
+
 def test_the_static_gain_is_the_stiffness_at_the_rim(damped: sf.Scene) -> None:
     # `check` uses this basis, because a point load excites waves of all lengths.
     space = damped.matrices(basis=(30, 12)).state_space(1200, inputs=RIM, outputs=RIM)

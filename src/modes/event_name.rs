@@ -176,7 +176,7 @@ impl EventWaves {
     pub fn in_words(&self) -> String {
         let (diameters, circles) = self.first();
         let dominant = || in_words(diameters, circles, self.direction);
-        mixed(&self.shares, MOST_NAMED)
+        mixed(&self.shares, 0.0, MOST_NAMED)
             .map_or_else(dominant, |shares| shares + &self.direction.ending(", "))
     }
 
@@ -184,7 +184,7 @@ impl EventWaves {
     fn in_short(&self) -> String {
         let (diameters, circles) = self.first();
         let dominant = || short(diameters, circles);
-        mixed(&self.shares, MOST_NAMED).unwrap_or_else(dominant) + &self.direction.ending(" ")
+        mixed(&self.shares, 0.0, MOST_NAMED).unwrap_or_else(dominant) + &self.direction.ending(" ")
     }
 
     /// Nodal diameters and circles of the wave with the largest share.

@@ -25,7 +25,7 @@ pub fn eigenpairs(
     system: &GyroscopicSystem,
     speed_rad_per_s: f64,
 ) -> Result<Vec<Eigenpair>, SpectrumError> {
-    let radial = plate.basis.count();
+    let radial = plate.harmonics[n].bending.nrows();
     // If the blade has rigid motions, the first radial function for n ≤ 1 is a rigid motion, which is not
     // coupled to the other functions.
     let rigid = usize::from(plate.basis.has_rigid_motions() && n <= 1);

@@ -68,6 +68,8 @@ pub struct ModeName {
     pub direction: Direction,
     /// Shares of all harmonics, largest first.
     pub harmonics: Vec<HarmonicShare>,
+    /// Share of the heads of guide arms in the kinetic energy, beside those of the harmonics; zero without arms.
+    pub head_share: f64,
     /// Whether the stronger wave of the dominant harmonic runs forward in space.
     pub runs_forward: bool,
 }
@@ -90,7 +92,9 @@ impl ModeName {
         let waves: Vec<Wave> = (0..=plate.max_diameters())
             .map(|n| Wave::new(plate, mode.lambda, q, n, speed_rad_per_s))
             .collect();
-        let total: f64 = waves.iter().map(Wave::energy).sum();
+        let heads = plate.heads().map(|unknown| q[unknown].norm_sqr());
+        let of_heads = mode.lambda.norm_sqr() * heads.sum::<f64>();
+        let total = of_heads + waves.iter().map(Wave::energy).sum::<f64>();
         let mut harmonics: Vec<HarmonicShare> = waves
             .iter()
             .map(|wave| HarmonicShare {
@@ -111,6 +115,7 @@ impl ModeName {
             circles: harmonics[0].circles,
             direction: direction(&waves, wave, mode),
             harmonics,
+            head_share: of_heads / total.max(f64::MIN_POSITIVE),
             runs_forward: wave.runs_forward(),
         }
     }
@@ -143,12 +148,20 @@ impl ModeName {
     }
 
     /// "1 diameter", or the shares of the harmonics if none dominates: "0 (54 %) + 1 (45 %)"; "0/1" is one
-    /// circle without diameters.
+    /// circle without diameters. "guide arm" is a motion of heads.
     pub fn in_shares(&self) -> String {
-        match mixed(&self.harmonics, MOST_NAMED) {
-            Some(shares) => shares,
-            None => in_words(self.diameters, self.circles, Direction::Standing),
+        self.named(
+            MOST_NAMED,
+            "guide arm",
+            in_words(self.diameters, self.circles, Direction::Standing),
+        )
+    }
+
+    fn named(&self, most: usize, arm: &str, wave: String) -> String {
+        if self.head_share >= DOMINANT {
+            return arm.to_owned();
         }
+        mixed(&self.harmonics, self.head_share, most).unwrap_or(wave)
     }
 
     /// Share of n nodal diameters, between 0 and 1.
@@ -158,8 +171,7 @@ impl ModeName {
 
     /// Short form: "1", "0/1", "0 (54 %) + 1 (45 %)".
     pub fn in_short(&self) -> String {
-        let dominant = || short(self.diameters, self.circles);
-        mixed(&self.harmonics, 2).unwrap_or_else(dominant)
+        self.named(2, "arm", short(self.diameters, self.circles))
     }
 }
 
@@ -170,23 +182,26 @@ pub(super) fn share_of(harmonics: &[HarmonicShare], diameters: usize) -> f64 {
     found.map_or(0.0, |h| h.share)
 }
 
-/// At most `most` harmonics with their shares, largest first; `None` if one dominates.
-pub(super) fn mixed(harmonics: &[HarmonicShare], most: usize) -> Option<String> {
+/// At most `most` harmonics with their shares, largest first, and that of the heads of guide arms if it is as large; `None` if a
+/// harmonic dominates.
+pub(super) fn mixed(harmonics: &[HarmonicShare], heads: f64, most: usize) -> Option<String> {
     if harmonics.first().is_none_or(|h| h.share >= DOMINANT) {
         return None;
     }
+    let harmonics = harmonics.iter().take(most);
+    let mut parts: Vec<(f64, String)> = harmonics
+        .map(|h| (h.share, short(h.diameters, h.circles)))
+        .collect();
+    let place = parts.partition_point(|(share, _)| *share >= heads);
+    parts.insert(place, (heads, "arm".to_owned()));
     let mut named = 0.0;
     let mut terms = Vec::new();
-    for h in harmonics.iter().take(most) {
-        if named >= NAMED_SHARE {
+    for (share, name) in parts.into_iter().take(most) {
+        if named >= NAMED_SHARE || share == 0.0 {
             break;
         }
-        named += h.share;
-        let percent = 100.0 * h.share;
-        terms.push(format!(
-            "{} ({percent:.0} %)",
-            short(h.diameters, h.circles)
-        ));
+        named += share;
+        terms.push(format!("{name} ({:.0} %)", 100.0 * share));
     }
     Some(terms.join(" + "))
 }

@@ -19,7 +19,10 @@ fn the_fields_of_the_selected_part_are_beside_the_blade_and_all_others_are_found
         drag(&page, PAD, 2, (1, 0)).await;
         let_go(&page).await;
         page.settle().await;
-        assert_eq!(page.value(SHOWN).await, json!(["guides", "guides[0]"]));
+        assert_eq!(
+            page.value(SHOWN).await,
+            json!(["guides", "guides[0]", "guides[0].arm"])
+        );
         let places = "['#drawing', '#fields', '#result'].map((part) => document.querySelector(part).getBoundingClientRect().left)";
         let lefts: Vec<f64> = serde_json::from_value(page.value(places).await).unwrap();
         assert!(lefts.is_sorted(), "{lefts:?}");

@@ -26,5 +26,6 @@ mod charts;
 mod cut_ranges;
 mod damped;
 mod fuzz;
+mod guide_arms;
 mod properties;
 mod rooms;

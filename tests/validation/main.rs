@@ -18,6 +18,7 @@ mod event_names;
 mod excitation;
 mod floquet;
 mod follower;
+mod guide_arm;
 mod heat_limits;
 mod in_cut;
 mod light_gap;

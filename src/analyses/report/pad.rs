@@ -5,7 +5,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::analyses::check::{point_load_plate, rim_at_cut};
 use crate::analyses::deflect::PointLoad;
-use crate::model::plate::mean_over;
+use crate::model::plate::pad_force;
 use crate::model::scene::rpm;
 use crate::stability::{Analysis, StabilityState};
 
@@ -26,7 +26,7 @@ pub struct LoadedPad {
 
 impl LoadedPad {
     /// The linear pads of a saw at its operating speed, by the stationary deflection of the flat blade: force = stiffness × mean
-    /// deflection over the pad. None unless the saw is stable there and something holds its rigid motions.
+    /// deflection over the pad, less that of its head. None unless the saw is stable there and something holds its rigid motions.
     pub(super) fn all(analysis: &Analysis) -> Vec<Self> {
         let scene = &analysis.scene;
         let Some(speed) = scene.operating_rad_per_s() else {
@@ -45,14 +45,11 @@ impl LoadedPad {
             .guides()
             .iter()
             .filter(|guide| guide.lifting.is_none() && guide.typed.stiffness_n_per_m > 0.0);
-        let loaded = linear.map(|guide| {
-            let mean = mean_over(&plate, &guide.typed).transpose() * &deflected;
-            LoadedPad {
-                guide: guide.index,
-                rpm: rpm(speed),
-                side_force_n,
-                force_n: guide.typed.stiffness_n_per_m * mean * side_force_n,
-            }
+        let loaded = linear.map(|guide| LoadedPad {
+            guide: guide.index,
+            rpm: rpm(speed),
+            side_force_n,
+            force_n: side_force_n * (pad_force(&plate, guide).transpose() * &deflected),
         });
         loaded.collect()
     }

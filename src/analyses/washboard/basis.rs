@@ -303,7 +303,8 @@ fn complete_to(plate: &Plate, fastest: f64) -> f64 {
 /// Frequency in the body frame of the shape with n nodal diameters and k nodal circles.
 fn body_frequency(plate: &Plate, n: usize, k: usize, speed: f64) -> f64 {
     let block = plate.harmonics[n].body_frame_stiffness(speed);
-    let values = symmetric_eigenvalues(block.as_ref());
+    let size = plate.basis.count();
+    let values = symmetric_eigenvalues(block.get(..size, ..size));
     let square = values.ok().and_then(|values| values.get(k).copied());
     square.unwrap_or(0.0).max(0.0).sqrt()
 }

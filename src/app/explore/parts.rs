@@ -8,10 +8,10 @@ use super::initial_part::{
 use super::refusal::Refusal;
 use crate::model::scene::typical_block::rounded;
 use crate::model::scene::{
-    ContactLaw, CutFile, CutSpeedFile, DampingFile, ExcitationFile, FrictionFile, ModeRatioRow,
-    ProbeFile, ResidualStressRow, ResponseFile, RimFile, RollBandFile, Scene, SceneFile,
-    StraightEdgeFile, SweepFile, TemperatureFile, TemperatureRow, ThicknessRow, WoodFile,
-    typical_block, typical_value,
+    ContactLaw, CutFile, CutSpeedFile, DampingFile, ExcitationFile, FrictionFile, GuideArmFile,
+    GuideFile, ModeRatioRow, ProbeFile, ResidualStressRow, ResponseFile, RimFile, RollBandFile,
+    Scene, SceneFile, StraightEdgeFile, SweepFile, TemperatureFile, TemperatureRow, ThicknessRow,
+    WoodFile, typical_block, typical_value,
 };
 
 /// A request for a part.
@@ -85,6 +85,7 @@ fn add(scene: &mut SceneFile, path: &str, kind: &str) -> Option<()> {
         }
         _ => match path.split_once('.').unwrap_or((path, "")) {
             (guide, "gap_m") => add_gap(scene, guide)?,
+            (guide, "arm") => pad(scene, guide)?.arm = Some(ARM),
             ("blade", part) => add_to_blade(scene, part)?,
             ("cut", part) => add_to_cut(scene, part)?,
             ("membrane", part) => add_to_membrane(scene, part)?,
@@ -94,10 +95,23 @@ fn add(scene: &mut SceneFile, path: &str, kind: &str) -> Option<()> {
     Some(())
 }
 
+/// A usual arm of a guide.
+const ARM: GuideArmFile = GuideArmFile {
+    stiffness_n_per_m: typical_value("guides[].arm.stiffness_n_per_m"),
+    mass_kg: typical_value("guides[].arm.mass_kg"),
+    damping_n_s_per_m: 0.0,
+    loss_factor: 0.0,
+};
+
+/// The guide named like `guides[0]`.
+fn pad<'a>(scene: &'a mut SceneFile, guide: &str) -> Option<&'a mut GuideFile> {
+    let index = guide.strip_prefix("guides[")?.strip_suffix(']')?;
+    scene.guides.get_mut(index.parse::<usize>().ok()?)
+}
+
 /// Adds a gap to the guide named like `guides[0]`, which then lifts off.
 fn add_gap(scene: &mut SceneFile, guide: &str) -> Option<()> {
-    let index = guide.strip_prefix("guides[")?.strip_suffix(']')?;
-    let pad = scene.guides.get_mut(index.parse::<usize>().ok()?)?;
+    let pad = pad(scene, guide)?;
     pad.contact = ContactLaw::OneSided;
     pad.gap_m.get_or_insert(USUAL_GAP_M);
     Some(())
@@ -305,6 +319,15 @@ mod tests {
                 }
             }
         }
+    }
+
+    #[test]
+    fn a_guide_is_put_on_an_arm() {
+        let mut scene = Scene::paper().file().clone();
+        assert_eq!(add(&mut scene, "guides[1].arm", ""), None);
+        add(&mut scene, "guides[0].arm", "").unwrap();
+        assert_eq!(scene.guides[0].arm, Some(ARM));
+        Scene::try_from(scene).unwrap();
     }
 
     #[test]

@@ -7,6 +7,7 @@ use faer::Mat;
 use super::contact::{Contact, ContactTerms, LiftingPads};
 use super::edge_load::{EdgeStress, RimForce, edge_stiffness};
 use super::harmonic::HarmonicBlock;
+use super::head::{self, Head};
 use super::matrices::{Plate, sampled_radii};
 use super::membrane::{MembraneStress, membrane_stiffness};
 use super::radial::RadialBasis;
@@ -52,6 +53,8 @@ impl Plate {
                     .set_material_damping(damping.material_retardation_time_s, damping.ratio_of(n));
             }
         }
+        let heads = Head::of(scene.guides());
+        head::stand(&heads, &mut harmonics);
         let samples = [0, 1].map(|n| {
             sampled_radii(scene.blade())
                 .into_iter()
@@ -63,6 +66,7 @@ impl Plate {
             resolution,
             basis,
             spinning,
+            heads,
             harmonics,
             contact: ContactTerms::default(),
             lifting: None,
@@ -73,7 +77,7 @@ impl Plate {
         };
         let mut contact = ContactTerms::default();
         for guide in scene.guides() {
-            guide.typed.add_to(&plate, &mut contact);
+            guide.add_to(&plate, &mut contact);
         }
         plate.contact = contact;
         plate.lifting = LiftingPads::of(&plate, scene.guides());
@@ -83,7 +87,7 @@ impl Plate {
         }
     }
 
-    /// The plate with one more contact.
+    /// The plate with one more contact. A guide stands on an arm without mass.
     pub fn with_contact(&self, more: &impl Contact) -> Self {
         let mut plate = self.clone();
         more.add_to(self, &mut plate.contact);

@@ -10,7 +10,8 @@ use super::radial::RadialBasis;
 use super::stress::CentrifugalStress;
 
 /// Stiffness matrices of n nodal diameters, J × J, in 1/s² or dimensionless: the basis is scaled so that the
-/// mass matrix is the identity. They are the same for cos nθ and sin nθ.
+/// mass matrix is the identity. They are the same for cos nθ and sin nθ. Those of n = 0 in a plate also have a row for each head of a
+/// guide arm.
 #[derive(Debug, Clone)]
 pub struct HarmonicBlock {
     /// Number of nodal diameters n.

@@ -1,9 +1,12 @@
 //! The matrices of a plate, and the basis in which they stand.
 
+use std::ops::Range;
+
 use faer::Mat;
 
 use super::contact::{ContactTerms, LiftingPads};
 use super::harmonic::HarmonicBlock;
+use super::head::Head;
 use super::membrane::MembraneStress;
 use super::radial::RadialBasis;
 use super::resolution::Resolution;
@@ -22,7 +25,9 @@ pub struct Plate {
     pub(crate) basis: RadialBasis,
     /// Centrifugal stress.
     pub(super) spinning: CentrifugalStress,
-    /// Stiffness matrices K_b, K_m and K_σ − N of n = 0 … n_max nodal diameters.
+    /// Heads of guide arms, whose unknowns follow the radial functions of n = 0.
+    pub(super) heads: Vec<Head>,
+    /// Stiffness matrices K_b, K_m and K_σ − N of n = 0 … n_max nodal diameters; that of n = 0 has the heads, too.
     pub harmonics: Vec<HarmonicBlock>,
     /// Terms of the guides and of the contacts that [`Plate::with_contact`] adds.
     pub contact: ContactTerms,
@@ -53,7 +58,7 @@ impl Plate {
 
     /// Number of unknowns N.
     pub fn degrees_of_freedom(&self) -> usize {
-        self.basis.count() * (2 * self.max_diameters() + 1)
+        self.basis.count() * (2 * self.max_diameters() + 1) + self.heads.len()
     }
 
     /// Number of radial functions for each number of nodal diameters: those of the resolution, and those that
@@ -65,7 +70,23 @@ impl Plate {
     /// Index of the first cosine of n nodal diameters.
     pub fn offset(&self, n: usize) -> usize {
         let size = self.basis.count();
-        if n == 0 { 0 } else { size * (2 * n - 1) }
+        if n == 0 {
+            0
+        } else {
+            size * (2 * n - 1) + self.heads.len()
+        }
+    }
+
+    /// Indices of the unknowns √m h of the heads of guide arms.
+    pub(crate) fn heads(&self) -> Range<usize> {
+        let radial = self.basis.count();
+        radial..radial + self.heads.len()
+    }
+
+    /// Index of the unknown of the head of a guide; `None` if the guide has no head with mass.
+    pub(super) fn head_of(&self, guide: usize) -> Option<usize> {
+        let place = self.heads.iter().position(|head| head.guide == guide)?;
+        self.heads().nth(place)
     }
 
     /// Norm of cos nθ (or sin nθ) in the mass inner product, √(ρh₀ π(1+δ_n0)), in √(kg/m²).
@@ -96,7 +117,7 @@ impl Plate {
     }
 
     /// Every basis function φᵢ at a point of the blade, in 1/√kg: N values in the order of the
-    /// unknowns. A point force F there is F φ on the right side of the equation of motion.
+    /// unknowns, zero for the heads of guide arms. A point force F there is F φ on the right side of the equation of motion.
     pub fn functions_at(&self, radius_m: f64, angle_rad: f64) -> Vec<f64> {
         let mut values = Vec::with_capacity(self.degrees_of_freedom());
         // The radial functions of one nodal diameter differ from those of all others.
@@ -108,6 +129,8 @@ impl Plate {
             values.extend(radial.iter().map(|r| r * cos / norm));
             if n > 0 {
                 values.extend(radial.iter().map(|r| r * sin / norm));
+            } else {
+                values.resize(values.len() + self.heads.len(), 0.0);
             }
         }
         values

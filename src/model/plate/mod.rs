@@ -18,6 +18,7 @@ mod assembly;
 mod contact;
 mod edge_load;
 mod harmonic;
+mod head;
 mod in_plane;
 mod light_gap;
 mod matrices;
@@ -29,7 +30,7 @@ mod stress;
 mod stretching;
 
 pub use contact::{Contact, ContactTerms};
-pub(crate) use contact::{GapPotential, mean_over};
+pub(crate) use contact::{GapPotential, pad_force};
 #[doc(hidden)]
 pub use edge_load::{BoreForce, EdgeStress, RimForce, edge_stiffness};
 #[doc(hidden)]

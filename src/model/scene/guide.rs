@@ -128,6 +128,7 @@ impl GuideFile {
 pub fn guide(index: usize, pad: &GuideFile, blade: &Blade) -> Result<Guide, SceneError> {
     let of = |name: &str| format!("guides[{index}].{name}");
     let lifting = lifting(&of, pad)?;
+    arm(&of, pad)?;
     if (pad.radial_length_m == 0.0) != (pad.tangential_length_m == 0.0) {
         return Err(refuse(
             &of("tangential_length_m"),
@@ -207,6 +208,36 @@ fn lifting(of: &impl Fn(&str) -> String, typed: &GuideFile) -> Result<Option<Lif
         film_stiffness_n_per_m: film,
         side: typed.side,
     }))
+}
+
+/// Validates the arm of a pad.
+fn arm(of: &impl Fn(&str) -> String, pad: &GuideFile) -> Result<(), SceneError> {
+    let Some(arm) = pad.arm else {
+        return Ok(());
+    };
+    if pad.contact == ContactLaw::OneSided {
+        let allowed = "left out where the contact is one_sided";
+        let remedy = "a pad that lifts off stands on the frame; give it the stiffness of pad and arm in series";
+        let key = of("arm.stiffness_n_per_m");
+        return Err(refuse(&key, arm.stiffness_n_per_m, allowed, remedy));
+    }
+    if arm.damping_n_s_per_m > 0.0 && arm.loss_factor > 0.0 {
+        let allowed = "0 where the arm has damping_n_s_per_m";
+        let remedy = "give one of them";
+        return Err(refuse(
+            &of("arm.loss_factor"),
+            arm.loss_factor,
+            allowed,
+            remedy,
+        ));
+    }
+    let is_damped = pad.damping_n_s_per_m + arm.damping_n_s_per_m + arm.loss_factor > 0.0;
+    if is_damped && arm.mass_kg == 0.0 {
+        let allowed = "above 0 where the pad or its arm has damping";
+        let remedy = "give the mass of the head";
+        return Err(refuse(&of("arm.mass_kg"), 0.0, allowed, remedy));
+    }
+    Ok(())
 }
 
 #[cfg(test)]

@@ -3,6 +3,7 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
+use super::guide_arm::GuideArmFile;
 use super::rule::is_default;
 
 /// A guide pad with one length along and one across the radius at its centre. With zero size it is a point
@@ -45,6 +46,9 @@ pub struct GuideFile {
     /// direction of positive deflection. Zero by default.
     #[serde(default, skip_serializing_if = "is_default")]
     pub offset_m: f64,
+    /// The arm that holds the pad. By default the pad stands on the frame.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub arm: Option<GuideArmFile>,
 }
 
 /// Shape of a guide pad.

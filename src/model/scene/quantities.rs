@@ -31,7 +31,7 @@ const STRESS: Span = Span::closed(-1e11, 1e11);
 /// built: diameters from 50 mm (slitting saws) to 4 m (stone saws), materials from aluminium to tungsten carbide, guides from
 /// felt to steel.
 #[rustfmt::skip]
-pub const QUANTITIES: [Quantity; 102] = [
+pub const QUANTITIES: [Quantity; 106] = [
     q("blade.outer_diameter_m", "outer diameter", "m", POSITIVE, 0.04, 5.0),
     q("blade.inner_diameter_m", "bore diameter", "m", POSITIVE, 0.003, 2.0),
     q("blade.thickness_m", "thickness of the blade", "m", POSITIVE, 1e-4, 0.04),
@@ -57,6 +57,12 @@ pub const QUANTITIES: [Quantity; 102] = [
     q("guides[].damping_n_s_per_m", "damping of the guide", "N·s/m", CONTACT, 1e-2, 1e6).of_kind(Kind::Damping),
     q("guides[].gap_m", "gap of the guide", "m", POSITIVE, 1e-6, 5e-3).of_kind(Kind::Gap),
     q("guides[].film_stiffness_n_per_m", "stiffness within the gap of the guide", "N/m", CONTACT, 10.0, 1e10),
+    q("guides[].arm.stiffness_n_per_m", "stiffness of the guide's arm", "N/m", POSITIVE, 2.5e4, 1e10).of_kind(Kind::Stiffness)
+        .typically(2.5e6, "", 5e5, 7e7, "computed from 3EI/l³ for steel arms of 40 mm by 20 mm, bent over the 40 mm, 0.5 to 0.1 m long; 0.3 m is usual"),
+    q("guides[].arm.mass_kg", "mass of the guide's head", "kg", NOT_NEGATIVE, 0.01, 100.0)
+        .typically(1.5, "", 0.3, 5.0, "assumption of this program: a steel block of 50 mm by 50 mm by 50 mm and 33/140 of the arm's mass"),
+    q("guides[].arm.damping_n_s_per_m", "damping of the guide's arm", "N·s/m", CONTACT, 1e-2, 1e6).of_kind(Kind::Damping),
+    q("guides[].arm.loss_factor", "loss factor of the guide's arm", "", SHARE, 1e-4, 0.3),
     // No pad of a saw has a larger offset.
     q("guides[].offset_m", "offset of the guide", "m", Span::closed(-0.1, 0.1), -5e-3, 5e-3),
     q("friction.coefficient", "coefficient of friction", "", Span::closed(0.0, 2.0), 0.01, 1.0)

@@ -170,7 +170,7 @@ impl DenseFunctions {
     }
 }
 
-/// Indices of the functions of some harmonics of a plate in a larger basis, ascending.
+/// Indices of the functions of some harmonics of a plate in a larger basis, ascending. Both have the same heads of guide arms.
 fn kept(plate: &Plate, larger: &Plate, range: std::ops::RangeInclusive<usize>) -> Vec<usize> {
     let (few, many) = (plate.basis.count(), larger.basis.count());
     let first = larger.offset(*range.start());
@@ -178,7 +178,10 @@ fn kept(plate: &Plate, larger: &Plate, range: std::ops::RangeInclusive<usize>) -
         .flat_map(|n| {
             let cosine = larger.offset(n) - first;
             let phases = if n == 0 { 1 } else { 2 };
-            (0..phases).flat_map(move |phase| (0..few).map(move |j| cosine + phase * many + j))
+            let heads = if n == 0 { larger.heads().len() } else { 0 };
+            let waves =
+                (0..phases).flat_map(move |phase| (0..few).map(move |j| cosine + phase * many + j));
+            waves.chain((0..heads).map(move |head| many + head))
         })
         .collect()
 }

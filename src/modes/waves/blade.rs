@@ -16,7 +16,7 @@ pub struct Block {
     pub diameters: usize,
     /// Index of the first unknown in the component.
     pub first: usize,
-    /// Number J of radial functions.
+    /// Number of radial functions, and of heads of guide arms for n = 0.
     pub radial: usize,
     /// The equation of motion of the block, J × J for n = 0, else 2J × 2J.
     pub system: GyroscopicSystem,
@@ -59,7 +59,7 @@ impl Saw {
             .map(|n| Block {
                 diameters: n,
                 first: plate.offset(n) - first,
-                radial: plate.radial_functions(),
+                radial: plate.harmonics[n].bending.nrows(),
                 system: GyroscopicSystem::of_harmonic(plate, n),
             })
             .collect();

@@ -137,7 +137,9 @@ fn turning(plate: &Plate, n: usize, radial: &[f64]) -> Col<c64> {
 /// motion.
 fn shape_load(plate: &Plate, n: usize, amplitude_m: f64) -> Option<Col<c64>> {
     let stiffness = plate.harmonics.get(n)?.body_frame_stiffness(0.0);
-    let SymmetricEigen { values, vectors } = SymmetricEigen::new(stiffness.as_ref()).ok()?;
+    let size = plate.basis.count();
+    let of_blade = stiffness.get(..size, ..size);
+    let SymmetricEigen { values, vectors } = SymmetricEigen::new(of_blade).ok()?;
     let (softest, stiffest) = (*values.first()?, *values.last()?);
     if softest <= RIGID * stiffest {
         return None;

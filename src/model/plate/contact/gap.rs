@@ -31,25 +31,14 @@ impl LiftingPads {
         let mut released = ContactTerms::default();
         for guide in guides {
             let film = guide.lifting.map(|lifting| lifting.film_stiffness_n_per_m);
-            let guide = GuideFile {
+            let typed = GuideFile {
                 stiffness_n_per_m: film.unwrap_or(guide.typed.stiffness_n_per_m),
                 ..guide.typed
             };
-            guide.add_to(plate, &mut released);
+            Guide { typed, ..*guide }.add_to(plate, &mut released);
         }
         Some(LiftingPads { pads, released })
     }
-}
-
-/// The mean of the basis functions over a pad: times its stiffness, and with the coordinates of a deflection, it gives the force of a
-/// linear pad.
-pub(crate) fn mean_over(plate: &Plate, guide: &GuideFile) -> Col<f64> {
-    let mut mean = Col::zeros(plate.degrees_of_freedom());
-    for place in places(plate, guide, POINTS, POINTS) {
-        let functions = plate.functions_at(place.radius_m, place.angle_rad);
-        mean += Scale(place.share) * Col::from_fn(functions.len(), |i| functions[i]);
-    }
-    mean
 }
 
 /// Potential V of the pads of a plate that lift off, for deflections on r shapes with coordinates p.

@@ -4,20 +4,59 @@
 
 use std::f64::consts::PI;
 
-use faer::Scale;
+use faer::{Col, Mat, Scale};
 
-use crate::model::scene::{Blade, GuideFile, GuideShape};
+use crate::model::scene::{Blade, Guide, GuideFile, GuideShape};
 
 use super::super::Plate;
 use super::super::quadrature;
-use super::patch::{Circle, coupling, sufficient_points};
+use super::patch::{Circle, coupling, mean, sufficient_points};
 use super::{Contact, ContactTerms};
 
-/// The terms are the mean of φᵢφⱼ over the pad, times the stiffness of the pad in K_g and times its damping in C.
+/// The terms are the mean of φᵢφⱼ over the pad, times the stiffness of the pad in K_g and times its damping in C. A pad on an arm
+/// without mass is in series with it: K_g = k (mean φᵢφⱼ − k/(k + k_a) mean φᵢ mean φⱼ), because the pad moves as a rigid body.
+/// The mass of an arm is not contained, because a contact adds no unknown.
 impl Contact for GuideFile {
     fn add_to(&self, plate: &Plate, terms: &mut ContactTerms) {
-        let circles = circles(plate, self, sufficient_points(plate));
-        let mut coupling = coupling(plate, self.angle_rad(), circles.into_iter());
+        let mut coupling = coupling_over(plate, self);
+        if let Some(arm) = self.arm {
+            let share = self.stiffness_n_per_m / (self.stiffness_n_per_m + arm.stiffness_n_per_m);
+            let mean = mean_over(plate, self);
+            coupling -= Scale(share) * &mean * mean.transpose();
+        }
+        self.add_coupling(coupling, terms);
+    }
+}
+
+/// The terms of a pad on a head with mass m act on the difference of the deflection of the blade and that h of the head: for the
+/// head's unknown √m h the function is −1/√m.
+impl Contact for Guide {
+    fn add_to(&self, plate: &Plate, terms: &mut ContactTerms) {
+        let pad = &self.typed;
+        let (Some(head), Some(arm)) = (plate.head_of(self.index), pad.arm) else {
+            return pad.add_to(plate, terms);
+        };
+        let mut coupling = coupling_over(plate, pad);
+        let mean = Scale(-1.0 / arm.mass_kg.sqrt()) * mean_over(plate, pad);
+        for i in 0..mean.nrows() {
+            coupling[(i, head)] += mean[i];
+            coupling[(head, i)] += mean[i];
+        }
+        coupling[(head, head)] += 1.0 / arm.mass_kg;
+        pad.add_coupling(coupling, terms);
+        let damping = arm.viscous_n_s_per_m();
+        if damping > 0.0 {
+            let order = plate.degrees_of_freedom();
+            let mut of_arm = Mat::zeros(order, order);
+            of_arm[(head, head)] = damping / arm.mass_kg;
+            terms.add_damping(&of_arm);
+        }
+    }
+}
+
+impl GuideFile {
+    /// Adds the terms of the pad with this mean of φᵢφⱼ.
+    fn add_coupling(&self, mut coupling: Mat<f64>, terms: &mut ContactTerms) {
         if self.damping_n_s_per_m > 0.0 {
             terms.add_damping(&(Scale(self.damping_n_s_per_m) * &coupling));
         }
@@ -28,6 +67,31 @@ impl Contact for GuideFile {
             terms.add_symmetric_stiffness(coupling);
         }
     }
+}
+
+/// Force of the blade on a linear pad, in N/√kg: its product with the unknowns is the force.
+pub(crate) fn pad_force(plate: &Plate, guide: &Guide) -> Col<f64> {
+    let pad = &guide.typed;
+    let mut force = Scale(pad.stiffness_n_per_m) * mean_over(plate, pad);
+    match (pad.arm, plate.head_of(guide.index)) {
+        (None, _) => (),
+        (Some(arm), Some(head)) => force[head] -= pad.stiffness_n_per_m / arm.mass_kg.sqrt(),
+        (Some(arm), None) => {
+            let share = arm.stiffness_n_per_m / (pad.stiffness_n_per_m + arm.stiffness_n_per_m);
+            force *= Scale(share);
+        }
+    }
+    force
+}
+
+fn coupling_over(plate: &Plate, pad: &GuideFile) -> Mat<f64> {
+    let circles = circles(plate, pad, sufficient_points(plate));
+    coupling(plate, pad.angle_rad(), circles.into_iter())
+}
+
+fn mean_over(plate: &Plate, pad: &GuideFile) -> Col<f64> {
+    let circles = circles(plate, pad, sufficient_points(plate));
+    mean(plate, pad.angle_rad(), circles.into_iter())
 }
 
 /// Circles of a radial quadrature rule with `points` points on each smooth interval, with the arcs of the pad.

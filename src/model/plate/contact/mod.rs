@@ -10,7 +10,7 @@ mod terms;
 mod wood;
 
 pub use gap::GapPotential;
-pub(crate) use gap::mean_over;
+pub(crate) use guide::pad_force;
 pub use lifting::LiftingPads;
 pub use terms::ContactTerms;
 

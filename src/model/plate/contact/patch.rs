@@ -3,6 +3,7 @@
 //! A circle intersects a patch in a few arcs, symmetric about the centre line. The integrals of cos kψ over these
 //! arcs are elementary, so that only the radius needs quadrature.
 
+use faer::Col;
 use nalgebra::DMatrix;
 
 use super::super::Plate;
@@ -63,6 +64,30 @@ pub fn coupling(
         }
     }
     coupling
+}
+
+/// Mean of φᵢ over a patch whose centre line is at an angle: Σ weight ∫ φᵢ dψ over its circles, in 1/√kg.
+pub fn mean(plate: &Plate, angle_rad: f64, circles: impl Iterator<Item = Circle>) -> Col<f64> {
+    let size = plate.basis.count();
+    let mut mean = Col::zeros(plate.degrees_of_freedom());
+    for circle in circles {
+        // The radial functions of one nodal diameter differ from those of all others.
+        let functions = [0, 1].map(|n| plate.basis.evaluate(n, circle.radius_m).value);
+        for n in 0..=plate.max_diameters() {
+            let arcs = circle.arcs.as_ref();
+            let angular = arcs.map_or(1.0, |arcs| cosine_integral(arcs, n));
+            let weight = circle.weight * angular / plate.angular_norm(n);
+            let (sin, cos) = (n as f64 * angle_rad).sin_cos();
+            for (j, value) in functions[usize::from(n == 1)].iter().enumerate() {
+                let cosine = plate.offset(n) + j;
+                mean[cosine] += weight * value * cos;
+                if n > 0 {
+                    mean[cosine + size] += weight * value * sin;
+                }
+            }
+        }
+    }
+    mean
 }
 
 /// Number of points of a radial rule that integrates the product of two radial functions and of the integral over
