@@ -228,7 +228,8 @@ impl Search<'_> {
             groups.iter().find_map(|g| {
                 let decay: Vec<f64> = (0..=STEPS).map(|k| slowest(g, speed(k))).collect();
                 let (least, place) = inner(&decay)?;
-                (decay[least] < 0.0 && decay[0] > 0.0 && decay[STEPS] > 0.0).then_some(place)
+                (decay[least] < -self.noise_per_s && decay[0] > 0.0 && decay[STEPS] > 0.0)
+                    .then_some(place)
             })
         })
     }
