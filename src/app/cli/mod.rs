@@ -52,6 +52,9 @@ pub use self::keys::listed as keys;
 struct Arguments {
     #[command(subcommand)]
     command: Option<Command>,
+    /// Show no progress; messages and results remain
+    #[arg(long, global = true)]
+    quiet: bool,
 }
 
 #[derive(Subcommand)]
@@ -152,6 +155,7 @@ pub fn run(arguments: impl IntoIterator<Item = OsString>) -> u8 {
             return 0;
         }
     };
+    progress::hush(arguments.quiet);
     match command(arguments.command) {
         Ok(true) => 0,
         Ok(false) => 1,
@@ -167,7 +171,8 @@ pub fn run(arguments: impl IntoIterator<Item = OsString>) -> u8 {
 /// counts as a file even if it does not exist; another word is left to be refused as a misspelt command.
 fn with_command(arguments: impl IntoIterator<Item = OsString>) -> Vec<OsString> {
     let mut arguments: Vec<OsString> = arguments.into_iter().collect();
-    let Some(first) = arguments.get(1) else {
+    let mut words = arguments.iter().skip(1);
+    let Some(first) = words.find(|word| *word != "--quiet") else {
         return arguments;
     };
     let text = first.to_string_lossy();
@@ -265,8 +270,23 @@ mod tests {
         }
     }
 
+    #[test]
+    fn quiet_stands_before_a_command_or_after_it() {
+        for words in [
+            "--quiet check",
+            "check --quiet",
+            "--quiet",
+            "--quiet --json",
+            "saw.json --quiet",
+        ] {
+            let words = ["sawflutter"].into_iter().chain(words.split(' '));
+            let asked = with_command(words.map(OsString::from));
+            assert!(Arguments::try_parse_from(asked).unwrap().quiet);
+        }
+    }
+
     /// Options of every command: the scene and its changes, and where the results go.
-    const SHARED: [&str; 9] = [
+    const SHARED: [&str; 10] = [
         "scene",
         "set",
         "accuracy",
@@ -275,6 +295,7 @@ mod tests {
         "json",
         "details",
         "report",
+        "quiet",
         "help",
     ];
 

@@ -1,6 +1,7 @@
 //! A bar on the terminal while a command computes, or a line now and then where the error stream is no terminal.
 
 use std::io::IsTerminal;
+use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Mutex, PoisonError};
 use std::time::{Duration, Instant};
 
@@ -16,6 +17,19 @@ const BETWEEN_LINES: Duration = Duration::from_secs(30);
 /// Shortest part of a step from which the time of its rest is estimated.
 const SEEN: Duration = Duration::from_secs(2);
 
+/// Whether no progress is shown. The program has one error stream, and sets this once, before it computes.
+static IS_QUIET: AtomicBool = AtomicBool::new(false);
+
+/// Shows no progress from now on, if asked for.
+pub fn hush(is_quiet: bool) {
+    IS_QUIET.store(is_quiet, Ordering::Relaxed);
+}
+
+/// Whether the error stream shows a progress bar.
+pub fn has_bar() -> bool {
+    std::io::stderr().is_terminal() && !IS_QUIET.load(Ordering::Relaxed)
+}
+
 /// Runs work with a progress bar on the error stream, or with a line every half a minute if that is not a terminal. The
 /// work reports the progress of its own loops by [`Progress::show`].
 pub fn watched<T: Send>(work: impl FnOnce(&Progress) -> T + Send) -> anyhow::Result<T> {
@@ -26,7 +40,11 @@ pub fn watched<T: Send>(work: impl FnOnce(&Progress) -> T + Send) -> anyhow::Res
 pub fn watched_with_remarks<T: Send>(
     work: impl FnOnce(&Progress, &(dyn Fn(&str) + Sync)) -> T + Send,
 ) -> anyhow::Result<T> {
-    if !std::io::stderr().is_terminal() {
+    if IS_QUIET.load(Ordering::Relaxed) {
+        let progress = Progress::default();
+        return Ok(progress.watched(|| work(&progress, &|line| eprintln!("{line}")))?);
+    }
+    if !has_bar() {
         let lines = Lines::new(BETWEEN_LINES);
         let pace = Pace::default();
         let progress = Progress::new(move |stage| {

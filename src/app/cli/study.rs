@@ -1,6 +1,6 @@
 //! `sawflutter study`.
 
-use std::io::{BufWriter, IsTerminal};
+use std::io::BufWriter;
 use std::path::{Path, PathBuf};
 use std::sync::{Arc, Mutex, PoisonError};
 
@@ -15,6 +15,7 @@ use indicatif::{ProgressBar, ProgressStyle};
 use super::common::{Changes, Output, read_scene, read_text, refused, say};
 use super::output::OutputFolder;
 use super::pictures::drawn;
+use super::progress::has_bar;
 use super::scheduler;
 
 pub const EXAMPLES: &str = "\
@@ -203,7 +204,7 @@ const INTERRUPTED: i32 = 130;
 
 /// Bar over the saws of a part; the remaining time is estimated from the saws of this run alone.
 fn progress_bar(done: usize, of: usize) -> ProgressBar {
-    if !std::io::stderr().is_terminal() {
+    if !has_bar() {
         return ProgressBar::hidden();
     }
     let template = "{bar:36} {pos}/{len} saws, {elapsed}, {eta} left";
