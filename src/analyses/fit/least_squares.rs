@@ -118,7 +118,7 @@ pub fn minimum(
         upper: vec![1.0; count],
         last: Mutex::new(None),
     };
-    let at_start = model.residuals_hz(start)?;
+    let at_start = problem.residual(&start.to_vec())?;
     if at_start.iter().any(|r| r.is_nan()) {
         return Ok(None);
     }
