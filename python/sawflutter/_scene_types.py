@@ -141,6 +141,37 @@ class GuideArmDict(_GuideArmDict, total=False):
     at the frequency of the head on its arm without the blade."""
 
 
+class GuideFilmDict(TypedDict):
+    """The film of water, oil or air between a pad and the blade. What it presses out and draws
+    in damps the blade, and its compressibility delays this force: τ df/dt + f = c dw/dt with
+    the damping c of the pad and the mean deflection w over the pad, so that a film damps slow
+    motions and is a spring of c/τ for fast ones. Deflections without a mean exchange fluid only
+    within the pad; their damping does not lag."""
+
+    lag_s: float
+    """Lag τ of the force of the film, the inverse of its cut-off frequency in rad/s: 12 η
+    b²/(π² h² p) of a film of thickness h, viscosity η and absolute pressure p, the bulk modulus
+    in place of p for a liquid, under a long pad of width b. Typically 0.0001, from 1e-5 to 0.01
+    (computed from 12ηb²/(π²h²p) of films 0.05 mm thick under pads 20 mm wide: 4e-5 s of air,
+    4e-5 to 2e-3 s of water with bubbles, whose bulk modulus is 5 to 0.1 MPa (Blech, J. Lubr.
+    Technol. 105, 1983))."""
+
+
+class GuideControllerDict(TypedDict):
+    """A controller, or any other element with a linear law, that presses on the blade at a pad
+    beside the pad's spring and damper. Its force is uniform over the pad, and opposes the mean
+    deflection w of the blade over the pad, less that of the head of its arm, by the transfer
+    function κ(s) = numerator/denominator in N/m, where s is in 1/s."""
+
+    numerator: list[float]
+    """Coefficients of the numerator, from the highest power of s to the constant. It has at
+    most one degree more than the denominator."""
+
+    denominator: list[float]
+    """Coefficients of the denominator, from the highest power of s to the constant, of which
+    neither is zero."""
+
+
 class _GuideDict(TypedDict):
     """A guide pad with one length along and one across the radius at its centre. With zero size
     it is a point spring."""
@@ -195,6 +226,12 @@ class GuideDict(_GuideDict, total=False):
 
     arm: GuideArmDict | None
     """The arm that holds the pad. By default the pad stands on the frame."""
+
+    film: GuideFilmDict | None
+    """The film between pad and blade. By default the force of the damping does not lag."""
+
+    controller: GuideControllerDict | None
+    """A controller that acts on the pad beside its spring and damper. By default none does."""
 
 
 class _FrictionDict(TypedDict):
@@ -932,24 +969,29 @@ NumberPath: TypeAlias = Literal[
     "guides[3].arm.mass_kg", "guides[0].arm.damping_n_s_per_m",
     "guides[1].arm.damping_n_s_per_m", "guides[2].arm.damping_n_s_per_m",
     "guides[3].arm.damping_n_s_per_m", "guides[0].arm.loss_factor", "guides[1].arm.loss_factor",
-    "guides[2].arm.loss_factor", "guides[3].arm.loss_factor", "friction.coefficient",
-    "friction.heat_share", "friction.convection_w_per_m2_k", "friction.conductivity_w_per_m_k",
-    "damping.material_retardation_time_s", "damping.loss_factor", "damping.air_n_s_per_m3",
-    "damping.air_rotation_share", "membrane.temperature.expansion_per_k",
-    "membrane.temperature.rim_rise_k", "membrane.temperature.from_radius_m",
-    "membrane.temperature.exponent", "membrane.straight_edge.length_m",
-    "membrane.straight_edge.support_radius_m", "membrane.straight_edge.measured_gap_m",
-    "spline.teeth", "spline.pressure_angle_deg", "spline.contact_stiffness_n_per_m_3_2",
-    "spline.contact_damping_n_s_3_2_per_m_3_2", "spline.clearance_m", "spline.pitch_radius_m",
-    "spline.weight_angle_deg", "operating_rpm", "excitation.orders", "excitation.tooth_passing",
-    "sweep.from_rpm", "sweep.to_rpm", "tolerance", "flutter_threshold_per_s", "cut.angle_deg",
-    "cut.depth_m", "cut.teeth_in_cut", "cut.tangential_n_per_tooth", "cut.radial_n_per_tooth",
-    "cut.lateral_n_per_tooth", "cut.power_w", "cut.feed_m_per_s", "cut.board_length_m",
-    "cut.idle_s", "cut.chart_rpm", "cut.wood.stiffness_n_per_m", "cut.wood.damping_n_s_per_m",
-    "cut.wood.depth_m", "cut.wood.arc_deg", "cut.washboarding.stiffness_n_per_m",
-    "cut.washboarding.overlap", "cut.washboarding.arc_deg", "side_force.force_n",
-    "side_force.radius_m", "side_force.angle_deg", "side_force.oscillating_n",
-    "side_force.order", "runup.from_rpm", "runup.to_rpm", "runup.duration_s",
-    "response.runout_m", "response.flatness_m", "response.imbalance_kg_m2", "probe.radius_m",
-    "probe.angle_deg"
+    "guides[2].arm.loss_factor", "guides[3].arm.loss_factor", "guides[0].film.lag_s",
+    "guides[1].film.lag_s", "guides[2].film.lag_s", "guides[3].film.lag_s",
+    "guides[0].controller.numerator[0]", "guides[1].controller.numerator[1]",
+    "guides[2].controller.numerator[2]", "guides[3].controller.numerator[3]",
+    "guides[0].controller.denominator[0]", "guides[1].controller.denominator[1]",
+    "guides[2].controller.denominator[2]", "guides[3].controller.denominator[3]",
+    "friction.coefficient", "friction.heat_share", "friction.convection_w_per_m2_k",
+    "friction.conductivity_w_per_m_k", "damping.material_retardation_time_s",
+    "damping.loss_factor", "damping.air_n_s_per_m3", "damping.air_rotation_share",
+    "membrane.temperature.expansion_per_k", "membrane.temperature.rim_rise_k",
+    "membrane.temperature.from_radius_m", "membrane.temperature.exponent",
+    "membrane.straight_edge.length_m", "membrane.straight_edge.support_radius_m",
+    "membrane.straight_edge.measured_gap_m", "spline.teeth", "spline.pressure_angle_deg",
+    "spline.contact_stiffness_n_per_m_3_2", "spline.contact_damping_n_s_3_2_per_m_3_2",
+    "spline.clearance_m", "spline.pitch_radius_m", "spline.weight_angle_deg", "operating_rpm",
+    "excitation.orders", "excitation.tooth_passing", "sweep.from_rpm", "sweep.to_rpm",
+    "tolerance", "flutter_threshold_per_s", "cut.angle_deg", "cut.depth_m", "cut.teeth_in_cut",
+    "cut.tangential_n_per_tooth", "cut.radial_n_per_tooth", "cut.lateral_n_per_tooth",
+    "cut.power_w", "cut.feed_m_per_s", "cut.board_length_m", "cut.idle_s", "cut.chart_rpm",
+    "cut.wood.stiffness_n_per_m", "cut.wood.damping_n_s_per_m", "cut.wood.depth_m",
+    "cut.wood.arc_deg", "cut.washboarding.stiffness_n_per_m", "cut.washboarding.overlap",
+    "cut.washboarding.arc_deg", "side_force.force_n", "side_force.radius_m",
+    "side_force.angle_deg", "side_force.oscillating_n", "side_force.order", "runup.from_rpm",
+    "runup.to_rpm", "runup.duration_s", "response.runout_m", "response.flatness_m",
+    "response.imbalance_kg_m2", "probe.radius_m", "probe.angle_deg"
 ]

@@ -370,6 +370,8 @@ class Scene(Drawn, Mapping[str, Value]):
         film_stiffness_n_per_m: Number | None = None,
         offset_m: Number | None = None,
         arm: GuideArmDict | None = None,
+        film: GuideFilmDict | None = None,
+        controller: GuideControllerDict | None = None,
     ) -> Self:
         """Returns the scene with one more guide at the end of :attr:`guides`. The arguments are the
         keys of a guide in a scene file; those that are not given are copied from the last guide.

@@ -45,6 +45,20 @@ def test_the_head_of_an_arm_is_a_state(damped: sf.Scene) -> None:
     assert np.allclose(hz, expected, rtol=1e-6)
 
 
+def test_a_film_and_a_controller_are_states(damped: sf.Scene) -> None:
+    controller = {"numerator": [2e9], "denominator": [1, 50, 4e4]}
+    film = {"guides[0].damping_n_s_per_m": 100, "guides[0].film": {"lag_s": 1e-3}}
+    saw = damped.replace({**film, "guides[0].controller": controller})
+    m = saw.matrices(basis=(12, 6))
+    assert len(m.stiffness) == len(damped.matrices(basis=(12, 6)).stiffness) + 2
+    found = saw.modes(rpm=1200)
+    space = saw.matrices().state_space(1200, inputs=RIM, outputs=RIM, to_hz=60)
+    values = np.linalg.eigvals(space.A)
+    hz = np.sort(values[values.imag > 0].imag) / (2 * np.pi)
+    expected = [mode.frequency_hz for mode in found if 0 < mode.frequency_hz <= 60]
+    assert np.allclose(hz[hz <= 60], np.sort(expected), rtol=1e-6)
+
+
 def test_the_static_gain_is_the_stiffness_at_the_rim(damped: sf.Scene) -> None:
     # `check` uses this basis, because a point load excites waves of all lengths.
     space = damped.matrices(basis=(30, 12)).state_space(1200, inputs=RIM, outputs=RIM)

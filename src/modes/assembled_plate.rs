@@ -177,10 +177,10 @@ mod tests {
 
     fn pads(count: usize, stiffness_n_per_m: f64) -> Scene {
         let scene = Scene::paper().edited(|saw| {
-            let pad = saw.guides[0];
+            let pad = saw.guides[0].clone();
             saw.guides.clear();
             for k in 0..count {
-                let mut pad = pad;
+                let mut pad = pad.clone();
                 pad.angle_deg = -55.0 + 360.0 * k as f64 / count as f64;
                 pad.stiffness_n_per_m = stiffness_n_per_m;
                 saw.guides.push(pad);

@@ -30,7 +30,7 @@ pub fn saws(gap_m: f64, force_n: f64, oscillating_n: f64) -> [(&'static str, Sce
         stiffness_n_per_m: 1e6,
         contact: ContactLaw::OneSided,
         gap_m: Some(gap_m),
-        ..Scene::paper().file().guides[0]
+        ..Scene::paper().file().guides[0].clone()
     };
     let of = |guides: Vec<GuideFile>, is_clamped: bool, factor: f64| {
         let scene = Scene::paper().edited(|file| {

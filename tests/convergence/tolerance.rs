@@ -56,7 +56,7 @@ fn onsets_keep_the_tolerance() {
 fn the_warning_of_an_accuracy_out_of_reach_names_the_pad_and_the_functions_needed() {
     let saw = |damping_n_s_per_m: f64| {
         let scene = Scene::paper().edited(|saw| {
-            let mut small = saw.guides[0];
+            let mut small = saw.guides[0].clone();
             small.angle_deg += 180.0;
             small.stiffness_n_per_m = 1e8;
             (small.radial_length_m, small.tangential_length_m) = (0.06, 0.06);

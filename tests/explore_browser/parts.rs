@@ -21,7 +21,13 @@ fn the_fields_of_the_selected_part_are_beside_the_blade_and_all_others_are_found
         page.settle().await;
         assert_eq!(
             page.value(SHOWN).await,
-            json!(["guides", "guides[0]", "guides[0].arm"])
+            json!([
+                "guides",
+                "guides[0]",
+                "guides[0].arm",
+                "guides[0].film",
+                "guides[0].controller"
+            ])
         );
         let places = "['#drawing', '#fields', '#result'].map((part) => document.querySelector(part).getBoundingClientRect().left)";
         let lefts: Vec<f64> = serde_json::from_value(page.value(places).await).unwrap();

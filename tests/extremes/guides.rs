@@ -186,7 +186,7 @@ pub fn pads_on_the_same_spot() -> Row {
     let mut one = paper();
     one.guides[0].stiffness_n_per_m *= 2.0;
     let mut two = paper();
-    two.guides.push(two.guides[0]);
+    two.guides.push(two.guides[0].clone());
     row.compare(&signature(&two), &signature(&one), "bands");
     row
 }
@@ -201,7 +201,7 @@ pub fn evenly_spaced_pads() -> Row {
     for count in [2_usize, 3, 4, 6] {
         let mut file = unguided();
         for k in 0..count {
-            let mut pad = paper().guides[0];
+            let mut pad = paper().guides[0].clone();
             pad.angle_deg += 360.0 * k as f64 / count as f64;
             file.guides.push(pad);
         }

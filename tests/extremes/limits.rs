@@ -72,7 +72,7 @@ fn loss_of_digits_by_rounding_is_warned_of() {
 #[test]
 fn problems_too_large_for_memory_are_refused_with_the_number() {
     let mut file = paper();
-    file.guides = vec![file.guides[0]; 257];
+    file.guides = vec![file.guides[0].clone(); 257];
     let message = Scene::try_from(file).unwrap_err().to_string();
     assert!(
         says(&message, "guides must be … (you gave 257)") && message.contains("256"),

@@ -68,7 +68,7 @@ fn evenly_guided(count: usize, pad: GuideFile) -> SceneFile {
     file.guides = (0..count)
         .map(|k| GuideFile {
             angle_deg: pad.angle_deg + 360.0 * k as f64 / count as f64,
-            ..pad
+            ..pad.clone()
         })
         .collect();
     file

@@ -27,5 +27,6 @@ mod cut_ranges;
 mod damped;
 mod fuzz;
 mod guide_arms;
+mod guide_states;
 mod properties;
 mod rooms;

@@ -158,9 +158,9 @@ fn critical_speeds_are_those_of_springs_in_series() {
         assert_close("without mass", *massless, *series, 1e-8);
     }
     // A pad of some extent: with mass and without it the same.
-    let mut wide = Scene::paper().file().guides[0];
+    let mut wide = Scene::paper().file().guides[0].clone();
     wide.arm = Some(arm(of_arm, 7.0));
-    let heavy = critical(wide);
+    let heavy = critical(wide.clone());
     wide.arm = Some(arm(of_arm, 0.0));
     for (heavy, massless) in heavy.iter().zip(critical(wide)) {
         assert_close("a pad of some extent", *heavy, massless, 1e-8);
@@ -265,7 +265,7 @@ fn a_tuned_head_splits_a_mode() {
 fn an_arm_without_damping_is_stable_below_the_first_critical_speed() {
     let range = SpeedRange::between_rpm(0.0, 3000.0);
     let first = |held: Option<GuideArmFile>| {
-        let mut guide = Scene::paper().file().guides[0];
+        let mut guide = Scene::paper().file().guides[0].clone();
         guide.arm = held;
         let saw = saw_on(vec![guide]).swept(range).unwrap();
         let analysis = Analysis::new(&saw).unwrap();

@@ -19,6 +19,7 @@ mod excitation;
 mod floquet;
 mod follower;
 mod guide_arm;
+mod guide_states;
 mod heat_limits;
 mod in_cut;
 mod light_gap;

@@ -49,7 +49,7 @@ fn sensitivities_agree_where_a_rigid_motion_is_free() {
         angle_deg,
         radial_length_m: 0.0,
         tangential_length_m: 0.0,
-        ..paper.file().guides[0]
+        ..paper.file().guides[0].clone()
     };
     let springs = vec![spring(0.2, -55.0), spring(0.25, 40.0)];
     assert_central_differences(&paper.edited(|saw| saw.guides = springs).unwrap());
@@ -115,7 +115,7 @@ fn the_onset_of_divergence_moves_with_its_coalescence() {
                 radial_length_m: 0.111,
                 tangential_length_m: 0.0502,
                 stiffness_n_per_m: 113_900.0,
-                ..saw.guides[0]
+                ..saw.guides[0].clone()
             };
         })
         .unwrap();

@@ -32,17 +32,18 @@ struct BranchName {
 
 impl<'a> Numbered<'a> {
     /// Numbers the branches in the order of their first speeds; branches that begin at one speed in the order of
-    /// their frequencies.
+    /// their frequencies, those that decay without oscillating last.
     pub fn new(analysis: &'a Analysis) -> Self {
         let campbell = &analysis.chart.campbell;
         let start = |b: usize| {
             let first = campbell.branches[b].points[0];
-            (first.0, campbell.mode(first).mode.frequency_rad_per_s())
+            let mode = &campbell.mode(first).mode;
+            (first.0, mode.is_overdamped(), mode.frequency_rad_per_s())
         };
         let mut order: Vec<usize> = (0..campbell.branches.len()).collect();
         order.sort_by(|x, y| {
             let (x, y) = (start(*x), start(*y));
-            x.0.cmp(&y.0).then(x.1.total_cmp(&y.1))
+            (x.0, x.1).cmp(&(y.0, y.1)).then(x.2.total_cmp(&y.2))
         });
         let mut place = vec![0; order.len()];
         for (at, branch) in order.iter().enumerate() {

@@ -3,7 +3,7 @@
 use std::f64::consts::TAU;
 
 use crate::model::plate::{MembraneSource, Plate};
-use crate::model::scene::{Blade, Bore, Scene, rpm};
+use crate::model::scene::{Blade, Bore, Guide, PadLaw, Scene, rpm};
 use crate::modes::DescribedMode;
 use crate::page::text::{shown, shown_to};
 use crate::stability::{Analysis, CHARTED, CRITICAL_MARGIN, is_cut_short, usual_end};
@@ -76,6 +76,10 @@ pub fn terms(scene: &Scene, plate: &Plate) -> Vec<String> {
         .clone()
         .any(|guide| guide.typed.damping_n_s_per_m > 0.0);
     add(damped, "guide damping C");
+    let films = guides.clone().any(|guide| guide.typed.film.is_some());
+    add(films, "lag of guide films");
+    let controlled = guides.clone().any(|guide| guide.typed.controller.is_some());
+    add(controlled, "guide controllers");
     let in_cut = scene.cut().filter(|cut| cut.chart.is_some());
     let wood = in_cut.and_then(|cut| cut.wood);
     add(
@@ -112,6 +116,7 @@ pub fn warnings(
     let found = [
         out_of_reach(scene, analysis),
         uncalibrated(scene),
+        unstable_pads(scene),
         thick(&analysis.model.plate.blade),
         out_of_balance(scene),
         rounded(analysis, at_rest),
@@ -124,6 +129,25 @@ pub fn warnings(
         rolled_alone(scene),
     ];
     found.into_iter().flatten().collect()
+}
+
+/// Names the growing poles of controllers of pads.
+fn unstable_pads(scene: &Scene) -> Option<String> {
+    let of_guide = |guide: &Guide| {
+        let poles = guide.law.iter().flat_map(PadLaw::growing_poles_per_s);
+        let shown = poles.map(|pole| match pole.im {
+            0.0 => format!("{} 1/s", shown_to(4, pole.re)),
+            im => format!("{} ± {}i 1/s", shown_to(4, pole.re), shown_to(4, im)),
+        });
+        let shown: Vec<String> = shown.collect();
+        let key = format!("guides[{}].controller", guide.index);
+        (!shown.is_empty()).then(|| format!("{key} has the growing poles {}", shown.join(", ")))
+    };
+    let named: Vec<String> = scene.guides().iter().filter_map(of_guide).collect();
+    (!named.is_empty()).then(|| {
+        let named = named.join("; ");
+        format!("{named}: the controller grows without the blade; only with it may both be stable")
+    })
 }
 
 fn out_of_reach(scene: &Scene, analysis: &Analysis) -> Option<String> {

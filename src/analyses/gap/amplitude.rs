@@ -128,7 +128,7 @@ impl<'a> OscillatingSaw<'a> {
         let linear = with_linear_guides(self.scene, |guide| {
             let guide = GuideFile {
                 offset_m: guide.offset_m - means_m.next().unwrap_or_default(),
-                ..*guide
+                ..guide.clone()
             };
             let mean = equivalent_stiffness(&guide, amplitude_m);
             shares.push(mean / guide.stiffness_n_per_m);
@@ -161,7 +161,7 @@ pub(super) fn with_linear_guides(
                 side: GuideSide::Both,
                 film_stiffness_n_per_m: 0.0,
                 offset_m: 0.0,
-                ..*guide
+                ..guide.clone()
             };
         }
     })?)

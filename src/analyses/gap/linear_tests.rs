@@ -11,7 +11,7 @@ fn saws(film_stiffness_n_per_m: f64, offset_m: f64) -> [Scene; 3] {
         contact: ContactLaw::OneSided,
         gap_m: Some(gap_m),
         film_stiffness_n_per_m,
-        ..Scene::paper().file().guides[0]
+        ..Scene::paper().file().guides[0].clone()
     };
     let of = |guides: Vec<crate::model::scene::GuideFile>, is_clamped: bool| {
         let scene = Scene::paper().edited(|file| {
@@ -37,7 +37,7 @@ fn saws(film_stiffness_n_per_m: f64, offset_m: f64) -> [Scene; 3] {
             }],
             false,
         ),
-        of(vec![pad(-50.0, 4e-8), shifted], false),
+        of(vec![pad(-50.0, 4e-8), shifted.clone()], false),
         of(vec![shifted], true),
     ]
 }

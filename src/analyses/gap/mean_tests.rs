@@ -11,7 +11,7 @@ use crate::motion::history::{History, SMALL, product, saws, with_pads};
 fn history_of(scene: &Scene, rpm: f64) -> (f64, f64) {
     let speed = rad_per_s(rpm);
     let history = History::new(scene, speed, None, false);
-    let pad = scene.file().guides[0];
+    let pad = scene.file().guides[0].clone();
     let at_pad = Plate::new(scene, SMALL).functions_at(pad.radius_m, pad.angle_rad());
     let period_s = TAU / speed;
     let steps = (period_s / history.step_s).ceil() as usize;

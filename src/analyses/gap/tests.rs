@@ -140,7 +140,7 @@ fn limits_are_found_between_the_places_of_a_map() {
 fn a_preloaded_pad_holds_the_blade_and_each_gap_is_named() {
     let scene = lifting(4e-5)
         .edited(|file| {
-            let pad = file.guides[0];
+            let pad = file.guides[0].clone();
             file.guides.push(crate::model::scene::GuideFile {
                 angle_deg: 120.0,
                 gap_m: Some(9e-5),
@@ -258,7 +258,7 @@ fn the_heat_of_a_point_pad_is_that_of_its_force() {
             stiffness_n_per_m: 1e6,
             contact: ContactLaw::OneSided,
             gap_m: Some(1e-5),
-            ..Scene::paper().file().guides[0]
+            ..Scene::paper().file().guides[0].clone()
         }];
     });
     let analysis = Analysis::new(&scene.unwrap()).unwrap();
@@ -324,11 +324,12 @@ fn pads_with_one_offset_move_the_blade_by_it() {
     let of = |offset_m: f64| {
         let scene = lifting(4e-5)
             .edited(|file| {
-                let pad = file.guides[0];
+                let pad = file.guides[0].clone();
                 file.guides = [-55.0, 65.0, 185.0]
                     .map(|angle_deg| crate::model::scene::GuideFile {
                         angle_deg,
                         offset_m,
+                        controller: pad.controller.clone(),
                         ..pad
                     })
                     .to_vec();
@@ -364,7 +365,7 @@ fn an_offset_changes_the_mean_stiffness() {
             stiffness_n_per_m: 1.0,
             gap_m: Some(1.0),
             offset_m: offset,
-            ..Scene::paper().file().guides[0]
+            ..Scene::paper().file().guides[0].clone()
         };
         let found = amplitude::equivalent_stiffness(&guide, amplitude);
         assert!(

@@ -68,11 +68,11 @@ mod tests {
         let saw = Scene::paper().edited(|saw| {
             saw.accuracy = Accuracy::Draft;
             saw.operating_rpm = Some(300.0);
-            let pad = saw.guides[0];
+            let pad = saw.guides[0].clone();
             let at = |angle_deg: f64, radius_m: f64| GuideFile {
                 angle_deg,
                 radius_m,
-                ..pad
+                ..pad.clone()
             };
             saw.guides = vec![at(-60.0, 0.25), at(80.0, 0.2), at(200.0, 0.3)];
         });

@@ -97,7 +97,7 @@ fn a_load_that_turns_with_a_symmetric_blade_has_no_resonance() {
         });
     };
     let unsymmetric = |saw: &mut crate::model::scene::SceneFile| {
-        saw.guides = vec![Scene::paper().file().guides[0]];
+        saw.guides = vec![Scene::paper().file().guides[0].clone()];
     };
     let of = |edit: &dyn Fn(&mut crate::model::scene::SceneFile)| {
         response(&collared(3, edit), &Options::default()).unwrap()

@@ -115,10 +115,14 @@ fn a_blade_on_soft_springs_deflects_as_a_rigid_body() {
             damping_n_s_per_m: 0.0,
             radial_length_m: 1e-3,
             tangential_length_m: 1e-3,
-            ..saw.guides[0]
+            ..saw.guides[0].clone()
         };
         saw.guides = [20.0, 140.0, 260.0]
-            .map(|angle_deg| GuideFile { angle_deg, ..pad })
+            .map(|angle_deg| GuideFile {
+                angle_deg,
+                controller: pad.controller.clone(),
+                ..pad
+            })
             .into();
     });
     let report = response(&scene, &Options::default()).unwrap();

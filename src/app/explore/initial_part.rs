@@ -81,7 +81,7 @@ pub fn guide(scene: &SceneFile) -> GuideFile {
     };
     GuideFile {
         angle_deg: free_angle(&scene.guides),
-        ..scene.guides.last().copied().unwrap_or(first)
+        ..scene.guides.last().cloned().unwrap_or(first)
     }
 }
 

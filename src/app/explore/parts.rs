@@ -9,9 +9,9 @@ use super::refusal::Refusal;
 use crate::model::scene::typical_block::rounded;
 use crate::model::scene::{
     ContactLaw, CutFile, CutSpeedFile, DampingFile, ExcitationFile, FrictionFile, GuideArmFile,
-    GuideFile, ModeRatioRow, ProbeFile, ResidualStressRow, ResponseFile, RimFile, RollBandFile,
-    Scene, SceneFile, StraightEdgeFile, SweepFile, TemperatureFile, TemperatureRow, ThicknessRow,
-    WoodFile, typical_block, typical_value,
+    GuideControllerFile, GuideFile, GuideFilmFile, ModeRatioRow, ProbeFile, ResidualStressRow,
+    ResponseFile, RimFile, RollBandFile, Scene, SceneFile, StraightEdgeFile, SweepFile,
+    TemperatureFile, TemperatureRow, ThicknessRow, WoodFile, typical_block, typical_value,
 };
 
 /// A request for a part.
@@ -86,6 +86,8 @@ fn add(scene: &mut SceneFile, path: &str, kind: &str) -> Option<()> {
         _ => match path.split_once('.').unwrap_or((path, "")) {
             (guide, "gap_m") => add_gap(scene, guide)?,
             (guide, "arm") => pad(scene, guide)?.arm = Some(ARM),
+            (guide, "film") => add_film(pad(scene, guide)?),
+            (guide, "controller") => pad(scene, guide)?.controller = Some(velocity_controller()),
             ("blade", part) => add_to_blade(scene, part)?,
             ("cut", part) => add_to_cut(scene, part)?,
             ("membrane", part) => add_to_membrane(scene, part)?,
@@ -107,6 +109,27 @@ const ARM: GuideArmFile = GuideArmFile {
 fn pad<'a>(scene: &'a mut SceneFile, guide: &str) -> Option<&'a mut GuideFile> {
     let index = guide.strip_prefix("guides[")?.strip_suffix(']')?;
     scene.guides.get_mut(index.parse::<usize>().ok()?)
+}
+
+/// Adds a film of usual lag, and a damper if the pad has none.
+fn add_film(pad: &mut GuideFile) {
+    if pad.damping_n_s_per_m == 0.0 {
+        pad.damping_n_s_per_m = USUAL_DAMPING_N_S_PER_M;
+    }
+    pad.film = Some(GuideFilmFile {
+        lag_s: const { typical_value("guides[].film.lag_s") },
+    });
+}
+
+/// Damping of a pad that has none, when a film is added.
+const USUAL_DAMPING_N_S_PER_M: f64 = 300.0;
+
+/// A controller that damps: the velocity times 300 N·s/m through a low pass of 1 ms.
+fn velocity_controller() -> GuideControllerFile {
+    GuideControllerFile {
+        numerator: vec![USUAL_DAMPING_N_S_PER_M, 0.0],
+        denominator: vec![1e-3, 1.0],
+    }
 }
 
 /// Adds a gap to the guide named like `guides[0]`, which then lifts off.
@@ -327,6 +350,15 @@ mod tests {
         assert_eq!(add(&mut scene, "guides[1].arm", ""), None);
         add(&mut scene, "guides[0].arm", "").unwrap();
         assert_eq!(scene.guides[0].arm, Some(ARM));
+        Scene::try_from(scene).unwrap();
+    }
+
+    #[test]
+    fn a_guide_gets_a_film_with_its_damper_and_a_controller() {
+        let mut scene = Scene::paper().file().clone();
+        add(&mut scene, "guides[0].film", "").unwrap();
+        add(&mut scene, "guides[0].controller", "").unwrap();
+        assert_eq!(scene.guides[0].damping_n_s_per_m, USUAL_DAMPING_N_S_PER_M);
         Scene::try_from(scene).unwrap();
     }
 

@@ -10,6 +10,7 @@ use super::harmonic::HarmonicBlock;
 use super::head::{self, Head};
 use super::matrices::{Plate, sampled_radii};
 use super::membrane::{MembraneStress, membrane_stiffness};
+use super::pad_state::PadState;
 use super::radial::RadialBasis;
 use super::resolution::Resolution;
 use super::stress::CentrifugalStress;
@@ -54,7 +55,8 @@ impl Plate {
             }
         }
         let heads = Head::of(scene.guides());
-        head::stand(&heads, &mut harmonics);
+        let states = PadState::of(scene.guides(), scene.blade());
+        head::stand(&heads, states.len(), &mut harmonics);
         let samples = [0, 1].map(|n| {
             sampled_radii(scene.blade())
                 .into_iter()
@@ -67,6 +69,7 @@ impl Plate {
             basis,
             spinning,
             heads,
+            states,
             harmonics,
             contact: ContactTerms::default(),
             lifting: None,

@@ -32,9 +32,9 @@ impl Head {
     }
 }
 
-/// Adds the unknowns of heads to the block of no nodal diameters. The air resists the blade alone.
-pub(super) fn stand(heads: &[Head], blocks: &mut [HarmonicBlock]) {
-    if heads.is_empty() {
+/// Adds the unknowns of heads, and of internal states of pads, to the block of no nodal diameters. The air resists the blade alone.
+pub(super) fn stand(heads: &[Head], states: usize, blocks: &mut [HarmonicBlock]) {
+    if heads.len() + states == 0 {
         return;
     }
     for block in blocks.iter_mut() {
@@ -44,7 +44,7 @@ pub(super) fn stand(heads: &[Head], blocks: &mut [HarmonicBlock]) {
     }
     let block = &mut blocks[0];
     let radial = block.bending.nrows();
-    let size = radial + heads.len();
+    let size = radial + heads.len() + states;
     let optional = [
         &mut block.membrane,
         &mut block.material_damping,

@@ -8,6 +8,7 @@ use super::contact::{ContactTerms, LiftingPads};
 use super::harmonic::HarmonicBlock;
 use super::head::Head;
 use super::membrane::MembraneStress;
+use super::pad_state::PadState;
 use super::radial::RadialBasis;
 use super::resolution::Resolution;
 use super::stress::CentrifugalStress;
@@ -27,7 +28,9 @@ pub struct Plate {
     pub(super) spinning: CentrifugalStress,
     /// Heads of guide arms, whose unknowns follow the radial functions of n = 0.
     pub(super) heads: Vec<Head>,
-    /// Stiffness matrices K_b, K_m and K_σ − N of n = 0 … n_max nodal diameters; that of n = 0 has the heads, too.
+    /// Internal states of pads, whose unknowns follow those of the heads.
+    pub(super) states: Vec<PadState>,
+    /// Stiffness matrices K_b, K_m and K_σ − N of n = 0 … n_max nodal diameters; that of n = 0 has the heads and the states, too.
     pub harmonics: Vec<HarmonicBlock>,
     /// Terms of the guides and of the contacts that [`Plate::with_contact`] adds.
     pub contact: ContactTerms,
@@ -58,7 +61,7 @@ impl Plate {
 
     /// Number of unknowns N.
     pub fn degrees_of_freedom(&self) -> usize {
-        self.basis.count() * (2 * self.max_diameters() + 1) + self.heads.len()
+        self.basis.count() * (2 * self.max_diameters() + 1) + self.attached()
     }
 
     /// Number of radial functions for each number of nodal diameters: those of the resolution, and those that
@@ -73,8 +76,13 @@ impl Plate {
         if n == 0 {
             0
         } else {
-            size * (2 * n - 1) + self.heads.len()
+            size * (2 * n - 1) + self.attached()
         }
+    }
+
+    /// Number of unknowns beside the functions of the blade: heads of guide arms, and internal states of pads.
+    pub(crate) fn attached(&self) -> usize {
+        self.heads.len() + self.states.len()
     }
 
     /// Indices of the unknowns √m h of the heads of guide arms.
@@ -87,6 +95,18 @@ impl Plate {
     pub(super) fn head_of(&self, guide: usize) -> Option<usize> {
         let place = self.heads.iter().position(|head| head.guide == guide)?;
         self.heads().nth(place)
+    }
+
+    /// Indices of the internal states of pads.
+    pub(crate) fn states(&self) -> Range<usize> {
+        let first = self.heads().end;
+        first..first + self.states.len()
+    }
+
+    /// The internal states of a guide, each with the index of its unknown.
+    pub(super) fn states_of(&self, guide: usize) -> impl Iterator<Item = (usize, &PadState)> {
+        let all = self.states().zip(&self.states);
+        all.filter(move |(_, state)| state.guide == guide)
     }
 
     /// Norm of cos nθ (or sin nθ) in the mass inner product, √(ρh₀ π(1+δ_n0)), in √(kg/m²).
@@ -117,7 +137,7 @@ impl Plate {
     }
 
     /// Every basis function φᵢ at a point of the blade, in 1/√kg: N values in the order of the
-    /// unknowns, zero for the heads of guide arms. A point force F there is F φ on the right side of the equation of motion.
+    /// unknowns, zero for heads of guide arms and for internal states of pads. A point force F there is F φ on the right side of the equation of motion.
     pub fn functions_at(&self, radius_m: f64, angle_rad: f64) -> Vec<f64> {
         let mut values = Vec::with_capacity(self.degrees_of_freedom());
         // The radial functions of one nodal diameter differ from those of all others.
@@ -130,7 +150,7 @@ impl Plate {
             if n > 0 {
                 values.extend(radial.iter().map(|r| r * sin / norm));
             } else {
-                values.resize(values.len() + self.heads.len(), 0.0);
+                values.resize(values.len() + self.attached(), 0.0);
             }
         }
         values

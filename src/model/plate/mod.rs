@@ -23,6 +23,7 @@ mod in_plane;
 mod light_gap;
 mod matrices;
 mod membrane;
+mod pad_state;
 mod quadrature;
 mod radial;
 mod resolution;

@@ -31,7 +31,7 @@ fn a_clipped_pad_equals_its_midpoint_sum() {
         stiffness_n_per_m: 2.0e7,
         ..GuideFile::default()
     };
-    let plate = plate_with(&[pad]);
+    let plate = plate_with(std::slice::from_ref(&pad));
     let cells = 400;
     let mut sum: Mat<f64> = Mat::zeros(plate.degrees_of_freedom(), plate.degrees_of_freedom());
     let (dx, dy) = (0.15 / f64::from(cells), 0.30 / f64::from(cells));
@@ -67,7 +67,7 @@ fn a_round_pad_equals_its_midpoint_sum() {
             stiffness_n_per_m: 2.0e7,
             ..GuideFile::default()
         };
-        let plate = plate_with(&[pad]);
+        let plate = plate_with(std::slice::from_ref(&pad));
         let size = plate.degrees_of_freedom();
         let mut sum: Mat<f64> = Mat::zeros(size, size);
         let (rings, turns) = (400, 100);

@@ -339,7 +339,7 @@ mod tests {
         };
         let one = Scene::paper();
         let mut file = one.file.clone();
-        file.guides.push(file.guides[0]);
+        file.guides.push(file.guides[0].clone());
         let two = Scene::try_from(file).unwrap();
         assert_eq!(turn(&one, &[0]), Some(0));
         assert_eq!(turn(&two, &[1]), None);

@@ -1,12 +1,15 @@
 //! Validated guide pads, angles in radians.
 
+use super::pad_law::law;
 use super::rule::refuse;
-use super::{Blade, ContactLaw, GuideFile, GuideShape, GuideSide, RefusedValue, SceneError};
+use super::{
+    Blade, ContactLaw, GuideFile, GuideShape, GuideSide, PadLaw, RefusedValue, SceneError,
+};
 use crate::page::text::shown;
 use std::f64::consts::{PI, TAU};
 
 /// Validated guide pad.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Guide {
     /// Index in the list of the scene.
     pub index: usize,
@@ -14,6 +17,8 @@ pub(crate) struct Guide {
     pub typed: GuideFile,
     /// Gap of a pad that lifts off; `None` for a linear pad.
     pub lifting: Option<Lifting>,
+    /// What film and controller add to spring and damper; `None` without both.
+    pub law: Option<PadLaw>,
 }
 
 /// A pad that touches the blade only beyond a gap.
@@ -64,9 +69,9 @@ impl GuideFile {
         corners.collect()
     }
 
-    /// Whether the pad has stiffness or damping.
+    /// Whether the pad has stiffness, damping or a controller.
     pub(super) fn acts(&self) -> bool {
-        self.stiffness_n_per_m > 0.0 || self.damping_n_s_per_m > 0.0
+        self.stiffness_n_per_m > 0.0 || self.damping_n_s_per_m > 0.0 || self.controller.is_some()
     }
 
     /// Angle of the centre.
@@ -129,6 +134,7 @@ pub fn guide(index: usize, pad: &GuideFile, blade: &Blade) -> Result<Guide, Scen
     let of = |name: &str| format!("guides[{index}].{name}");
     let lifting = lifting(&of, pad)?;
     arm(&of, pad)?;
+    let law = law(&of, pad)?;
     if (pad.radial_length_m == 0.0) != (pad.tangential_length_m == 0.0) {
         return Err(refuse(
             &of("tangential_length_m"),
@@ -154,8 +160,9 @@ pub fn guide(index: usize, pad: &GuideFile, blade: &Blade) -> Result<Guide, Scen
     }
     Ok(Guide {
         index,
-        typed: *pad,
+        typed: pad.clone(),
         lifting,
+        law,
     })
 }
 
@@ -231,9 +238,9 @@ fn arm(of: &impl Fn(&str) -> String, pad: &GuideFile) -> Result<(), SceneError> 
             remedy,
         ));
     }
-    let is_damped = pad.damping_n_s_per_m + arm.damping_n_s_per_m + arm.loss_factor > 0.0;
-    if is_damped && arm.mass_kg == 0.0 {
-        let allowed = "above 0 where the pad or its arm has damping";
+    let damping = pad.damping_n_s_per_m + arm.damping_n_s_per_m + arm.loss_factor;
+    if (damping > 0.0 || pad.controller.is_some()) && arm.mass_kg == 0.0 {
+        let allowed = "above 0 where the pad or its arm has damping, or the pad a controller";
         let remedy = "give the mass of the head";
         return Err(refuse(&of("arm.mass_kg"), 0.0, allowed, remedy));
     }

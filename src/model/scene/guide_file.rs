@@ -4,11 +4,13 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::guide_arm::GuideArmFile;
+use super::guide_controller::GuideControllerFile;
+use super::guide_film::GuideFilmFile;
 use super::rule::is_default;
 
 /// A guide pad with one length along and one across the radius at its centre. With zero size it is a point
 /// spring.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct GuideFile {
     /// Distance of the pad's centre from the axis.
@@ -49,6 +51,12 @@ pub struct GuideFile {
     /// The arm that holds the pad. By default the pad stands on the frame.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub arm: Option<GuideArmFile>,
+    /// The film between pad and blade. By default the force of the damping does not lag.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub film: Option<GuideFilmFile>,
+    /// A controller that acts on the pad beside its spring and damper. By default none does.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub controller: Option<GuideControllerFile>,
 }
 
 /// Shape of a guide pad.

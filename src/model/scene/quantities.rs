@@ -24,6 +24,7 @@ const FEED: Span = Span::closed(1e-6, 1e3);
 const FORCE: Span = Span::closed(-1e9, 1e9);
 /// Temperature rise. No blade survives a larger one.
 const RISE: Span = Span::closed(-2e3, 2e3);
+const COEFFICIENT: Span = Span::closed(-1e60, 1e60);
 /// Steel breaks at 3e9 Pa.
 const STRESS: Span = Span::closed(-1e11, 1e11);
 
@@ -31,7 +32,7 @@ const STRESS: Span = Span::closed(-1e11, 1e11);
 /// built: diameters from 50 mm (slitting saws) to 4 m (stone saws), materials from aluminium to tungsten carbide, guides from
 /// felt to steel.
 #[rustfmt::skip]
-pub const QUANTITIES: [Quantity; 106] = [
+pub static QUANTITIES: [Quantity; 109] = [
     q("blade.outer_diameter_m", "outer diameter", "m", POSITIVE, 0.04, 5.0),
     q("blade.inner_diameter_m", "bore diameter", "m", POSITIVE, 0.003, 2.0),
     q("blade.thickness_m", "thickness of the blade", "m", POSITIVE, 1e-4, 0.04),
@@ -63,6 +64,11 @@ pub const QUANTITIES: [Quantity; 106] = [
         .typically(1.5, "", 0.3, 5.0, "assumption of this program: a steel block of 50 mm by 50 mm by 50 mm and 33/140 of the arm's mass"),
     q("guides[].arm.damping_n_s_per_m", "damping of the guide's arm", "N·s/m", CONTACT, 1e-2, 1e6).of_kind(Kind::Damping),
     q("guides[].arm.loss_factor", "loss factor of the guide's arm", "", SHARE, 1e-4, 0.3),
+    q("guides[].film.lag_s", "lag of the guide's film", "s", Span::closed(1e-9, 1e3), 1e-7, 0.1)
+        .typically(1e-4, "", 1e-5, 1e-2, "computed from 12ηb²/(π²h²p) of films 0.05 mm thick under pads 20 mm wide: 4e-5 s of air, 4e-5 to 2e-3 s of water with bubbles, whose bulk modulus is 5 to 0.1 MPa (Blech, J. Lubr. Technol. 105, 1983)"),
+    // Coefficients of a transfer function have units of their own.
+    q("guides[].controller.numerator[]", "coefficient of the numerator", "", COEFFICIENT, -1e60, 1e60),
+    q("guides[].controller.denominator[]", "coefficient of the denominator", "", COEFFICIENT, -1e60, 1e60),
     // No pad of a saw has a larger offset.
     q("guides[].offset_m", "offset of the guide", "m", Span::closed(-0.1, 0.1), -5e-3, 5e-3),
     q("friction.coefficient", "coefficient of friction", "", Span::closed(0.0, 2.0), 0.01, 1.0)

@@ -169,8 +169,19 @@ impl GyroscopicSystem {
         if rigid.is_empty() {
             return;
         }
+        // The internal states of pads follow a motion as at rest.
+        let states: Vec<usize> = plate
+            .states()
+            .filter_map(|state| state.checked_sub(first))
+            .collect();
+        let followed = |state: usize, motion: usize| {
+            -self.stiffness[(state, motion)] / self.stiffness[(state, state)]
+        };
         let held = Mat::from_fn(rigid.len(), rigid.len(), |i, j| {
-            self.stiffness[(rigid[i], rigid[j])]
+            let by_states = states
+                .iter()
+                .map(|state| self.stiffness[(rigid[i], *state)] * followed(*state, rigid[j]));
+            self.stiffness[(rigid[i], rigid[j])] + by_states.sum::<f64>()
         });
         // A stiffness that is not finite holds every motion here, and is refused by every eigenproblem.
         let eigen = SymmetricEigen::or_nan(held.as_ref());
@@ -183,6 +194,9 @@ impl GyroscopicSystem {
             let mut z = Col::zeros(self.order());
             for (i, &index) in rigid.iter().enumerate() {
                 z[index] = eigen.vectors[(i, k)];
+                for state in &states {
+                    z[*state] += eigen.vectors[(i, k)] * followed(*state, index);
+                }
             }
             if (&self.stiffness * &z).norm_max() <= ROUNDING * largest {
                 self.free_rigid.push(z);

@@ -170,7 +170,7 @@ impl DenseFunctions {
     }
 }
 
-/// Indices of the functions of some harmonics of a plate in a larger basis, ascending. Both have the same heads of guide arms.
+/// Indices of the functions of some harmonics of a plate in a larger basis, ascending. Both have the same heads of guide arms and states of pads.
 fn kept(plate: &Plate, larger: &Plate, range: std::ops::RangeInclusive<usize>) -> Vec<usize> {
     let (few, many) = (plate.basis.count(), larger.basis.count());
     let first = larger.offset(*range.start());
@@ -178,10 +178,10 @@ fn kept(plate: &Plate, larger: &Plate, range: std::ops::RangeInclusive<usize>) -
         .flat_map(|n| {
             let cosine = larger.offset(n) - first;
             let phases = if n == 0 { 1 } else { 2 };
-            let heads = if n == 0 { larger.heads().len() } else { 0 };
+            let attached = if n == 0 { larger.attached() } else { 0 };
             let waves =
                 (0..phases).flat_map(move |phase| (0..few).map(move |j| cosine + phase * many + j));
-            waves.chain((0..heads).map(move |head| many + head))
+            waves.chain((0..attached).map(move |k| many + k))
         })
         .collect()
 }

@@ -244,7 +244,7 @@ mod tests {
     fn plates() -> Vec<Plate> {
         let points = |count: usize, damping: f64| {
             let scene = Scene::paper().edited(|saw| {
-                saw.guides = vec![saw.guides[0]; count];
+                saw.guides = vec![saw.guides[0].clone(); count];
                 for (k, guide) in saw.guides.iter_mut().enumerate() {
                     guide.angle_deg += 70.0 * k as f64;
                     (guide.radial_length_m, guide.tangential_length_m) = (0.0, 0.0);

@@ -63,7 +63,7 @@ mod tests {
     /// A damped saw on one guide, or on two with different ratios of damping to stiffness.
     fn damped(guides: usize) -> Plate {
         let scene = Scene::paper().edited(|saw| {
-            saw.guides = vec![saw.guides[0]; guides];
+            saw.guides = vec![saw.guides[0].clone(); guides];
             saw.guides[0].damping_n_s_per_m = 3.0;
             saw.guides[0].angle_deg += 70.0;
             // Two pads need more columns than a small basis permits.

@@ -64,7 +64,15 @@ impl Saw {
             })
             .collect();
         let dampers = match plate.contact.damping() {
-            Some(dampers) => columns(&(Scale(window) * dampers), &weights(&blocks, window)),
+            Some(dampers) => {
+                let mut of_blade = Scale(window) * dampers;
+                // The internal states of pads are always near: they have no stiffness of their own.
+                for state in plate.states().filter_map(|state| state.checked_sub(first)) {
+                    of_blade.row_mut(state).fill(0.0);
+                    of_blade.col_mut(state).fill(0.0);
+                }
+                columns(&of_blade, &weights(&blocks, window))
+            }
             None => Mat::zeros(full.order(), 0),
         };
         Saw { blocks, dampers }

@@ -23,7 +23,7 @@ use super::{Contact, ContactTerms, LiftingPads};
 impl LiftingPads {
     /// The pads among the guides that lift off; `None` if there are none.
     pub fn of(plate: &Plate, guides: &[Guide]) -> Option<Self> {
-        let lifting = |guide: &Guide| guide.lifting.map(|lifting| (guide.typed, lifting));
+        let lifting = |guide: &Guide| Some((guide.typed.clone(), guide.lifting?));
         let pads: Vec<_> = guides.iter().filter_map(lifting).collect();
         if pads.is_empty() {
             return None;
@@ -33,9 +33,13 @@ impl LiftingPads {
             let film = guide.lifting.map(|lifting| lifting.film_stiffness_n_per_m);
             let typed = GuideFile {
                 stiffness_n_per_m: film.unwrap_or(guide.typed.stiffness_n_per_m),
-                ..guide.typed
+                ..guide.typed.clone()
             };
-            Guide { typed, ..*guide }.add_to(plate, &mut released);
+            Guide {
+                typed,
+                ..guide.clone()
+            }
+            .add_to(plate, &mut released);
         }
         Some(LiftingPads { pads, released })
     }

@@ -192,7 +192,7 @@ fn within_the_gap_there_is_no_pad() {
                 angle_deg: 120.0,
                 contact,
                 gap_m: Some(4e-5),
-                ..file.guides[0]
+                ..file.guides[0].clone()
             };
             file.guides.push(second);
         });

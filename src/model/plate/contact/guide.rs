@@ -6,7 +6,7 @@ use std::f64::consts::PI;
 
 use faer::{Col, Mat, Scale};
 
-use crate::model::scene::{Blade, Guide, GuideFile, GuideShape};
+use crate::model::scene::{Blade, Guide, GuideArmFile, GuideFile, GuideShape};
 
 use super::super::Plate;
 use super::super::quadrature;
@@ -14,13 +14,14 @@ use super::patch::{Circle, coupling, mean, sufficient_points};
 use super::{Contact, ContactTerms};
 
 /// The terms are the mean of φᵢφⱼ over the pad, times the stiffness of the pad in K_g and times its damping in C. A pad on an arm
-/// without mass is in series with it: K_g = k (mean φᵢφⱼ − k/(k + k_a) mean φᵢ mean φⱼ), because the pad moves as a rigid body.
-/// The mass of an arm is not contained, because a contact adds no unknown.
+/// without mass is in series with it, because the pad moves as a rigid body: K_g = k (mean φᵢφⱼ − k/(ak + k_a) mean φᵢ mean φⱼ) with
+/// the share a of the pad on the blade. A contact adds no unknown: the mass of an arm and the lag of a film are not contained.
 impl Contact for GuideFile {
     fn add_to(&self, plate: &Plate, terms: &mut ContactTerms) {
         let mut coupling = coupling_over(plate, self);
         if let Some(arm) = self.arm {
-            let share = self.stiffness_n_per_m / (self.stiffness_n_per_m + arm.stiffness_n_per_m);
+            let stiffness = self.stiffness_n_per_m * area_share(plate, self);
+            let share = self.stiffness_n_per_m / (stiffness + arm.stiffness_n_per_m);
             let mean = mean_over(plate, self);
             coupling -= Scale(share) * &mean * mean.transpose();
         }
@@ -33,25 +34,52 @@ impl Contact for GuideFile {
 impl Contact for Guide {
     fn add_to(&self, plate: &Plate, terms: &mut ContactTerms) {
         let pad = &self.typed;
-        let (Some(head), Some(arm)) = (plate.head_of(self.index), pad.arm) else {
+        let head = plate.head_of(self.index).zip(pad.arm);
+        if head.is_none() && self.law.is_none() {
             return pad.add_to(plate, terms);
-        };
+        }
         let mut coupling = coupling_over(plate, pad);
-        let mean = Scale(-1.0 / arm.mass_kg.sqrt()) * mean_over(plate, pad);
-        for i in 0..mean.nrows() {
-            coupling[(i, head)] += mean[i];
-            coupling[(head, i)] += mean[i];
+        if let Some((head, arm)) = head {
+            let mean = Scale(-1.0 / arm.mass_kg.sqrt()) * mean_over(plate, pad);
+            for i in 0..mean.nrows() {
+                coupling[(i, head)] += mean[i];
+                coupling[(head, i)] += mean[i];
+            }
+            coupling[(head, head)] += area_share(plate, pad) / arm.mass_kg;
+            let damping = arm.viscous_n_s_per_m();
+            if damping > 0.0 {
+                let order = plate.degrees_of_freedom();
+                let mut of_arm = Mat::zeros(order, order);
+                of_arm[(head, head)] = damping / arm.mass_kg;
+                terms.add_damping(&of_arm);
+            }
         }
-        coupling[(head, head)] += 1.0 / arm.mass_kg;
+        if let Some(law) = &self.law {
+            let column = column_on_head(plate, pad, head);
+            let mean = &column * column.transpose();
+            if law.damping_n_s_per_m != 0.0 {
+                terms.add_damping(&(Scale(law.damping_n_s_per_m) * &mean));
+            }
+            if law.stiffness_n_per_m != 0.0 {
+                terms.add_symmetric_stiffness(Scale(law.stiffness_n_per_m) * mean);
+            }
+            for (unknown, state) in plate.states_of(self.index) {
+                state.oscillator.add_to(&column, unknown, terms);
+            }
+        }
         pad.add_coupling(coupling, terms);
-        let damping = arm.viscous_n_s_per_m();
-        if damping > 0.0 {
-            let order = plate.degrees_of_freedom();
-            let mut of_arm = Mat::zeros(order, order);
-            of_arm[(head, head)] = damping / arm.mass_kg;
-            terms.add_damping(&of_arm);
-        }
     }
+}
+
+/// The mean deflection of the blade over a pad, less that of its head, times the root of the share of the pad on the blade: with the
+/// product of this column and itself the force at each point is that of the mean deflection.
+fn column_on_head(plate: &Plate, pad: &GuideFile, head: Option<(usize, GuideArmFile)>) -> Col<f64> {
+    let share = area_share(plate, pad);
+    let mut column = mean_over(plate, pad);
+    if let Some((head, arm)) = head {
+        column[head] = -share / arm.mass_kg.sqrt();
+    }
+    Scale(share.sqrt().recip()) * column
 }
 
 impl GuideFile {
@@ -69,19 +97,31 @@ impl GuideFile {
     }
 }
 
-/// Force of the blade on a linear pad, in N/√kg: its product with the unknowns is the force.
+/// Force of the blade on a linear pad at rest, in N/√kg: its product with the unknowns is the force.
 pub(crate) fn pad_force(plate: &Plate, guide: &Guide) -> Col<f64> {
     let pad = &guide.typed;
-    let mut force = Scale(pad.stiffness_n_per_m) * mean_over(plate, pad);
-    match (pad.arm, plate.head_of(guide.index)) {
-        (None, _) => (),
-        (Some(arm), Some(head)) => force[head] -= pad.stiffness_n_per_m / arm.mass_kg.sqrt(),
-        (Some(arm), None) => {
-            let share = arm.stiffness_n_per_m / (pad.stiffness_n_per_m + arm.stiffness_n_per_m);
-            force *= Scale(share);
-        }
+    let of_law = guide.law.as_ref().map_or(0.0, |law| law.stiffness_n_per_m);
+    let stiffness = pad.stiffness_n_per_m + of_law;
+    let mut force = Scale(stiffness) * mean_over(plate, pad);
+    let Some(arm) = pad.arm else {
+        return force;
+    };
+    let stiffness = stiffness * area_share(plate, pad);
+    match plate.head_of(guide.index) {
+        Some(head) => force[head] -= stiffness / arm.mass_kg.sqrt(),
+        None => force *= Scale(arm.stiffness_n_per_m / (stiffness + arm.stiffness_n_per_m)),
     }
     force
+}
+
+/// Share of the pad that is on the blade.
+fn area_share(plate: &Plate, pad: &GuideFile) -> f64 {
+    let of_circle = |circle: &Circle| {
+        let angle = |arcs: &Vec<[f64; 2]>| arcs.iter().map(|[low, high]| 2.0 * (high - low)).sum();
+        circle.weight * circle.arcs.as_ref().map_or(1.0, angle)
+    };
+    let circles = circles(plate, pad, sufficient_points(plate));
+    circles.iter().map(of_circle).sum()
 }
 
 fn coupling_over(plate: &Plate, pad: &GuideFile) -> Mat<f64> {

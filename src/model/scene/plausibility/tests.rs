@@ -80,7 +80,7 @@ fn angles_in_radians_are_recognized() {
     }
     let several = |angles: &[f64]| {
         remarks(|file| {
-            let pad = file.guides[0];
+            let pad = file.guides[0].clone();
             file.guides = vec![pad; angles.len()];
             for (pad, angle) in file.guides.iter_mut().zip(angles) {
                 pad.angle_deg = *angle;

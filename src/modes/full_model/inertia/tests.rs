@@ -107,7 +107,7 @@ fn evenly_spaced_equal_pads_are_counted_in_parts() {
             angle_deg: 72.0 * f64::from(k),
             radial_length_m: 0.0,
             tangential_length_m: 0.0,
-            ..file.guides[0]
+            ..file.guides[0].clone()
         })
         .collect();
     let plate = Plate::new(&Scene::try_from(file).unwrap(), small());

@@ -1,0 +1,16 @@
+//! The film between a guide pad and the blade.
+
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+/// The film of water, oil or air between a pad and the blade. What it presses out and draws in damps the blade, and its
+/// compressibility delays this force: τ df/dt + f = c dw/dt with the damping c of the pad and the mean deflection w over the pad, so
+/// that a film damps slow motions and is a spring of c/τ for fast ones. Deflections without a mean exchange fluid only within the pad;
+/// their damping does not lag.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct GuideFilmFile {
+    /// Lag τ of the force of the film, the inverse of its cut-off frequency in rad/s: 12 η b²/(π² h² p) of a film of thickness h,
+    /// viscosity η and absolute pressure p, the bulk modulus in place of p for a liquid, under a long pad of width b.
+    pub lag_s: f64,
+}
