@@ -5,7 +5,7 @@ use faer::{Col, Mat, Scale, c64};
 
 use crate::model::linalg::symmetric_eigenvalues;
 use crate::model::scene::{Polar, rpm};
-use crate::modes::{SpectrumError, companion_eigenpairs, critical_speeds};
+use crate::modes::{SpectrumError, critical_speeds, eigenvalues};
 
 use super::{ROUNDING, StretchedBlade, StretchedError, finite};
 
@@ -90,9 +90,10 @@ impl StretchedBlade {
         finite("the speed in rad/s", speed_rad_per_s)?;
         let mut p = guess.cloned().unwrap_or_else(|| self.flat());
         for _ in 0..ITERATIONS {
-            let rest = self.residual(&p, speed_rad_per_s)?;
+            let tension = self.stretching.tension(&p)?;
+            let rest = self.residual_with(&p, &tension, speed_rad_per_s);
             let step = self
-                .hessian(&p, speed_rad_per_s)?
+                .hessian_with(&p, &tension, speed_rad_per_s)
                 .partial_piv_lu()
                 .solve(&rest);
             p -= &step;
@@ -110,8 +111,9 @@ impl StretchedBlade {
     pub fn small_motions(&self, equilibrium: &Equilibrium) -> Result<Vec<c64>, StretchedError> {
         let mut system = self.system.clone();
         system.stiffness += self.added_stiffness(&equilibrium.coordinates)?;
-        let pairs = companion_eigenpairs(&system, equilibrium.speed_rad_per_s)?;
-        Ok(pairs.into_iter().map(|(lambda, _)| lambda).collect())
+        let mut motions = eigenvalues(&system, equilibrium.speed_rad_per_s)?;
+        motions.sort_by(|x, y| x.norm().total_cmp(&y.norm()));
+        Ok(motions)
     }
 
     /// The speeds at which equilibria branch from the flat blade, ascending, each with the shape of the

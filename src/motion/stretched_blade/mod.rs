@@ -269,7 +269,7 @@ impl StretchedBlade {
     }
 
     fn added_with(&self, p: &Col<f64>, tension: &Col<f64>) -> Mat<f64> {
-        let stretching = self.stretching.hessian_with(p, tension);
+        let stretching = self.stretching.hessian_with(tension);
         match &self.gaps {
             Some(gaps) => stretching + gaps.hessian(p),
             None => stretching,

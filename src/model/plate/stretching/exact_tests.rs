@@ -158,8 +158,7 @@ fn gradient_and_hessian_are_the_derivatives() {
     }
 }
 
-/// On some shapes the quartic form equals the potential and so do its derivatives; Q has no negative
-/// eigenvalue.
+/// On some shapes the quartic form equals the potential and so do its derivatives.
 #[test]
 fn the_reduced_form_is_the_potential_on_its_shapes() {
     for plate in all([3, 3]) {
@@ -186,12 +185,6 @@ fn the_reduced_form_is_the_potential_on_its_shapes() {
             hessian_error < 1e-12 * hessian.norm_l2(),
             "{hessian_error:e}"
         );
-        let eigenvalues = reduced
-            .quartic()
-            .self_adjoint_eigenvalues(faer::Side::Lower)
-            .unwrap();
-        let (lowest, highest) = (eigenvalues[0], eigenvalues[eigenvalues.len() - 1]);
-        assert!(lowest > -1e-14 * highest, "{lowest:e} {highest:e}");
     }
 }
 

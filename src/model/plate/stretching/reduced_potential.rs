@@ -1,4 +1,8 @@
 //! The potential of stretching on a few shapes, as a quadratic form in the products of their coordinates.
+//!
+//! Many quadratic forms Q in the products give the same potential, because p_a p_b · p_c p_d does not depend on the order of
+//! the four. Of these the one whose entries do not depend on it either is kept: one product Qz then gives the energy, the
+//! gradient and the second derivatives.
 
 use faer::{Col, Mat, MatRef, Scale};
 use rayon::prelude::*;
@@ -7,7 +11,8 @@ use super::strain::Strain;
 use super::{Stretching, StretchingError};
 
 /// [`Stretching`] on r shapes, the columns of V: U₄(V p) = ½ zᵀQz with the r(r+1)/2 products
-/// z = (p_a p_b), a ≥ b, and Q symmetric, positive semidefinite.
+/// z = (p_a p_b), a ≥ b, and Q = (m_ab m_cd s_abcd), where m is 1 for a = b and 2 otherwise, and s is the same for every
+/// order of its four indices.
 #[derive(Debug, Clone)]
 pub struct ReducedStretching {
     order: usize,
@@ -31,27 +36,24 @@ impl ReducedStretching {
             .map(|&[a, b]| stretching.relaxed(&Strain::of(&slopes[a], &slopes[b])))
             .collect();
         let height = columns.first().map_or(0, Vec::len);
-        // The product p_a p_b occurs once in the strain for a = b, and twice for a > b, where p_b p_a has the
-        // same column. The potential is U₄ = |Z e|².
-        let relaxed = Mat::from_fn(height, pairs.len(), |i, k| {
-            let [a, b] = pairs[k];
-            let times = if a == b { 1.0 } else { 2.0 };
-            times * columns[k][i]
+        let relaxed = Mat::from_fn(height, pairs.len(), |i, k| columns[k][i]);
+        // The potential is U₄ = |Z e|², in which p_a p_b · p_c p_d has this product of the columns of both pairs.
+        let products = relaxed.transpose() * &relaxed;
+        let quartic = Mat::from_fn(pairs.len(), pairs.len(), |i, k| {
+            let ([a, b], [c, d]) = (pairs[i], pairs[k]);
+            let orders = [
+                products[(i, k)],
+                products[(pair(a, c), pair(b, d))],
+                products[(pair(a, d), pair(b, c))],
+            ];
+            2.0 / 3.0 * orders.iter().sum::<f64>() * times(a, b) * times(c, d)
         });
-        Ok(ReducedStretching {
-            order,
-            quartic: Scale(2.0) * (relaxed.transpose() * &relaxed),
-        })
+        Ok(ReducedStretching { order, quartic })
     }
 
     /// Number of shapes r.
     pub fn order(&self) -> usize {
         self.order
-    }
-
-    /// Q, in 1/(kg m²s²) for shapes in 1/√kg.
-    pub fn quartic(&self) -> MatRef<'_, f64> {
-        self.quartic.as_ref()
     }
 
     /// U₄, in J.
@@ -75,7 +77,7 @@ impl ReducedStretching {
     /// # Errors
     /// [`StretchingError::Length`].
     pub fn hessian(&self, coordinates: &Col<f64>) -> Result<Mat<f64>, StretchingError> {
-        Ok(self.hessian_with(coordinates, &self.tension(coordinates)?))
+        Ok(self.hessian_with(&self.tension(coordinates)?))
     }
 
     /// Tension Qz of each pair, with which [`ReducedStretching::energy_with`] and others need no product of order r⁴.
@@ -100,38 +102,10 @@ impl ReducedStretching {
         self.symmetric(tension) * coordinates
     }
 
-    /// ∂²U₄/∂p², in 1/s², symmetric, with the tension of the same coordinates.
-    pub fn hessian_with(&self, coordinates: &Col<f64>, tension: &Col<f64>) -> Mat<f64> {
-        let mut hessian = self.symmetric(tension);
-        let p = coordinates;
-        // The derivative ∂z/∂pₐ of the products z has one nonzero entry for each b, so that Q ∂z/∂pₐ is a sum of r columns of Q. Each
-        // column, of the pair (a, b), is read once for both sums of which it is a part, because Q exceeds the cache of a processor.
-        let mut tensions = Mat::<f64>::zeros(self.quartic.nrows(), self.order);
-        for (k, [a, b]) in pairs(self.order).enumerate() {
-            let column = self.quartic.col_as_slice(k);
-            for (sum, share) in [(a, p[b]), (b, p[a])] {
-                let sums = tensions.col_as_slice_mut(sum).iter_mut();
-                for (sum, stiffness) in sums.zip(column) {
-                    *sum += share * stiffness;
-                }
-            }
-        }
-        for a in 0..self.order {
-            let tension = tensions.col_as_slice(a);
-            for b in 0..=a {
-                let along: f64 = (0..self.order)
-                    .map(|c| {
-                        let share = if b == c { 2.0 * p[b] } else { p[c] };
-                        share * tension[pair(b, c)]
-                    })
-                    .sum();
-                hessian[(a, b)] += along;
-                if a != b {
-                    hessian[(b, a)] += along;
-                }
-            }
-        }
-        hessian
+    /// ∂²U₄/∂p², in 1/s², symmetric, with the tension of the coordinates. The gradient is 2 Σ s_abcd p_b p_c p_d, and its
+    /// derivative by p_b is 6 Σ s_abcd p_c p_d.
+    pub fn hessian_with(&self, tension: &Col<f64>) -> Mat<f64> {
+        Scale(3.0) * self.symmetric(tension)
     }
 
     /// Products z of the coordinates p.
@@ -156,6 +130,11 @@ impl ReducedStretching {
         }
         matrix
     }
+}
+
+/// Number of times that the product of a pair of coordinates occurs among all products p_a p_b.
+fn times(a: usize, b: usize) -> f64 {
+    if a == b { 1.0 } else { 2.0 }
 }
 
 /// Index of a pair among the products.
