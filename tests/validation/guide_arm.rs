@@ -291,3 +291,122 @@ fn an_arm_without_damping_is_stable_below_the_first_critical_speed() {
         assert!(flutter > 0);
     }
 }
+
+/// Iwan and Moeller, J. Appl. Mech. 43 (1976): each element of a stationary load has its own signature. From a critical speed on a spring
+/// makes the wave that stands still diverge, and a damper makes it grow as long as it is reflected; a mass has no force there. Where a
+/// reflected wave meets another, a spring raises both frequencies in space and a mass lowers them: the band of flutter lies above the
+/// speed at which they would cross, or below it.
+#[test]
+#[cfg_attr(debug_assertions, ignore = "many eigenproblems: run it in release")]
+fn spring_damper_and_mass_have_their_signatures() {
+    let rpm = |speed_rad_per_s: f64| sawflutter::model::scene::rpm(speed_rad_per_s);
+    let bands = |guide: GuideFile, kind: InstabilityKind| -> Vec<[f64; 2]> {
+        let saw = collar().edited(|saw| {
+            saw.guides = vec![guide];
+            (saw.cut, saw.runup, saw.sweep) = (None, None, None);
+        });
+        let saw = saw.unwrap();
+        let saw = saw.swept(SpeedRange::between_rpm(0.0, 5500.0)).unwrap();
+        let found = Analysis::new(&saw).unwrap().chart.instabilities;
+        let own = found.iter().filter(|band| band.kind == kind);
+        own.map(|band| [rpm(band.from_rad_per_s), rpm(band.to_rad_per_s)])
+            .filter(|[from, to]| to - from > 1e-6 * to)
+            .collect()
+    };
+    let free = collar().edited(|saw| saw.guides.clear()).unwrap();
+    let plate = Plate::new(
+        &free,
+        Resolution {
+            max_diameters: 12,
+            radial_functions: 8,
+        },
+    );
+    let critical: Vec<f64> = SpectralModel::critical_speeds(&plate)
+        .unwrap()
+        .iter()
+        .map(|c| rpm(c.speed_rad_per_s))
+        .filter(|rpm| *rpm < 5200.0)
+        .collect();
+    assert_eq!(critical.len(), 4);
+    let at = GuideFile {
+        radius_m: 0.18,
+        ..GuideFile::default()
+    };
+    let spring = || GuideFile {
+        stiffness_n_per_m: 500.0,
+        ..at.clone()
+    };
+    let damper = GuideFile {
+        damping_n_s_per_m: 1.0,
+        ..at.clone()
+    };
+    let mass = GuideFile {
+        stiffness_n_per_m: 1e8,
+        arm: Some(arm(1e-6, 0.05)),
+        ..at.clone()
+    };
+    let diverging = bands(spring(), InstabilityKind::Divergence);
+    let [on_spring, on_damper, on_mass] =
+        [spring(), damper, mass.clone()].map(|guide| bands(guide, InstabilityKind::Flutter));
+    assert!(bands(mass, InstabilityKind::Divergence).is_empty());
+    for critical in critical.iter().step_by(2) {
+        let begins = |bands: &[[f64; 2]]| {
+            bands
+                .iter()
+                .any(|band| (band[0] / critical - 1.0).abs() < 3e-4)
+        };
+        assert!(
+            begins(&diverging) && begins(&on_damper),
+            "{critical}: {diverging:?} {on_damper:?}"
+        );
+        assert!(
+            !begins(&on_spring) && !begins(&on_mass),
+            "{critical}: {on_spring:?} {on_mass:?}"
+        );
+    }
+    assert!(
+        on_spring.len() == 3 && on_mass.len() == 3,
+        "{on_spring:?} {on_mass:?}"
+    );
+    for (above, below) in on_spring.iter().zip(&on_mass) {
+        // The crossing is at the beginning of one and at the end of the other.
+        assert!(
+            (below[1] / above[0] - 1.0).abs() < 5e-4,
+            "{below:?} {above:?}"
+        );
+        assert!(
+            below[0] < above[0] && below[1] < above[1],
+            "{below:?} {above:?}"
+        );
+    }
+}
+
+/// A rigid blade on a pad that is partly beside it pushes the head as far as it moves itself: only what is on the blade couples both.
+#[test]
+fn a_pad_partly_beside_the_blade_has_no_spring_to_the_frame() {
+    for mass_kg in [0.0, 3.0] {
+        let mut guide = Scene::paper().file().guides[0].clone();
+        guide.radius_m = 0.345;
+        guide.arm = Some(arm(1.0, mass_kg));
+        let system = GyroscopicSystem::of_plate(&Plate::new(&saw_on(vec![guide]), SMALL));
+        // Heave of the built-in blade is the first function, its head the first unknown after those of n = 0.
+        let mut heave = vec![0.0; system.order()];
+        let blade = *Scene::paper().blade();
+        let area =
+            std::f64::consts::PI * (blade.outer_radius_m.powi(2) - blade.inner_radius_m.powi(2));
+        heave[0] = (blade.mass_per_area_kg_per_m2() * area).sqrt();
+        if mass_kg > 0.0 {
+            heave[SMALL.radial_functions] = mass_kg.sqrt();
+        }
+        let mut energy = 0.0;
+        for (i, x) in heave.iter().enumerate() {
+            energy += heave
+                .iter()
+                .enumerate()
+                .map(|(k, y)| x * y * system.stiffness[(i, k)])
+                .sum::<f64>();
+        }
+        // The arm of 1 N/m alone is bent.
+        assert_close("stiffness in heave", energy, 1.0, 1e-4);
+    }
+}
