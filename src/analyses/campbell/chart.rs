@@ -54,6 +54,13 @@ pub struct BranchCurve {
     pub dominant_harmonics: Vec<[usize; 2]>,
 }
 
+impl BranchCurve {
+    /// Whether the mode oscillates at any speed. One that never does has no line to be labelled in a diagram of frequencies.
+    pub(super) fn oscillates(&self) -> bool {
+        self.frequency_hz.iter().any(|hz| *hz > 0.0)
+    }
+}
+
 /// Eigenvalues around a flutter onset, in the complex plane.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]

@@ -130,7 +130,7 @@ fn branches(report: &Report, said: bool) -> Vec<Item> {
                     _ => CURVE,
                 },
                 dashed: stretch == Stretch::Reflected,
-                end: if last == Some(of) {
+                end: if last == Some(of) && branch.oscillates() {
                     branch.label.clone()
                 } else {
                     String::new()

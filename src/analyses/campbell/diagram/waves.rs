@@ -165,7 +165,7 @@ pub fn label_branches(sheet: &mut Sheet, chart: &Chart) {
     let branches = &chart.report.campbell.branches;
     let mut on_the_right = Vec::new();
     let mut above = Vec::new();
-    for branch in branches {
+    for branch in branches.iter().filter(|branch| branch.oscillates()) {
         let parts = clip(&places(branch, chart), &chart.upper);
         let Some(&[x, y]) = parts.last().and_then(|part| part.last()) else {
             continue;
