@@ -22,7 +22,7 @@ from ._progress import Progress, reporting
 from ._report_types import Mode
 from ._result import R
 from ._scene_types import (
-    Accuracy, BladeDict, ContactLaw, CutDict, GuideArmDict, GuideDict, GuideShape, GuideSide, MountDict, NumberPath, SceneDict,
+    Accuracy, BladeDict, ContactLaw, CutDict, GuideArmDict, GuideControllerDict, GuideDict, GuideFilmDict, GuideShape, GuideSide, MountDict, NumberPath, SceneDict,
 )  # fmt: skip
 from ._values import Number, number, numbers, optional, whole
 from .checks import CheckResults

@@ -248,10 +248,11 @@ fn controlled(pad: &GuideFile, speed: f64) -> Vec<c64> {
 /// the pad's stiffness.
 #[test]
 fn a_controlled_point_has_the_eigenvalues_of_the_canonical_form() {
-    let controllers: [(&[f64], &[f64]); 6] = [
+    let controllers: [(&[f64], &[f64]); 7] = [
         (&[200.0, 1e5], &[1.0]),
         (&[2e5], &[1e-3, 1.0]),
         (&[3e9], &[1.0, 20.0, 9e4]),
+        (&[3e8], &[1.0, 0.0, 9e4]),
         (&[300.0, 1e5, 2e6], &[1e-3, 1.0]),
         (&[-1e4, 2e6, 1e9], &[1.0, -5.0, 4e4]),
         (&[1e7, 0.0, 2e12], &[1.0, 1e3, 3e5, 4e7]),

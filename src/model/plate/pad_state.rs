@@ -108,15 +108,13 @@ impl Oscillator {
     pub fn add_to(&self, u: &Col<f64>, own: usize, terms: &mut ContactTerms) {
         let order = u.nrows();
         let unit = Col::from_fn(order, |i| if i == own { 1.0 } else { 0.0 });
-        let (ratio, share) = (self.spring / self.stiffness, self.damper / self.damping);
         // b² (y − (s/b²) u)².
-        let stretch = &unit - Scale(ratio) * u;
+        let stretch = &unit - Scale(self.spring / self.stiffness) * u;
         let stiffness = Scale(self.stiffness) * &stretch * stretch.transpose();
-        // d (y − (c/d) u)² − (c²/d) u².
-        let slide = &unit - Scale(share) * u;
-        let sliding = Scale(self.damping) * &slide * slide.transpose();
-        let less = Scale(-self.damper * share) * u * u.transpose();
-        terms.add_state(own, stiffness, &(sliding + less));
+        // d y² − 2c y u.
+        let slide = Scale(0.5 * self.damping) * &unit - Scale(self.damper) * u;
+        let half = &unit * slide.transpose();
+        terms.add_state(own, stiffness, &(&half + half.transpose()));
     }
 
     /// Force over deflection at λ, in N/m.
@@ -144,6 +142,7 @@ mod tests {
             ((-20.0, 300.0), (0.0, -2e6)),
             ((5.0, 300.0), (4e5, -2e6)),
             ((-2e3, 1.0), (4e5, -2e6)),
+            ((0.0, 300.0), (4e5, -2e6)),
         ];
         for ((p_re, p_im), (r_re, r_im)) in terms {
             let (pole, residue) = (c64::new(p_re, p_im), c64::new(r_re, r_im));
