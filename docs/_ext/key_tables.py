@@ -120,9 +120,10 @@ def table(schema: Schema, keys: Schema, deep: bool) -> str:
         number = value.get("items", value)
         measure = number.get("x-unit", "") if "x-name" in number else unit(path)
         span = choices(value, defs)
-        if "x-usual" in number:
-            least, largest = number["x-usual"]
-            span = ", ".join(filter(None, [allowed(number), f"usual range {least:g} to {largest:g}"]))
+        if "x-name" in number:
+            least, largest = number.get("x-usual", [None, None])
+            usual = "" if least is None else f"usual range {least:g} to {largest:g}"
+            span = ", ".join(filter(None, [allowed(number), usual]))
         if is_block and not span:
             span = "list of blocks" if list_of else "block"
         text = " ".join(value.get("description", "").split())

@@ -169,7 +169,8 @@ class GuideControllerDict(TypedDict):
 
     denominator: list[float]
     """Coefficients of the denominator, from the highest power of s to the constant, of which
-    neither is zero."""
+    neither is zero. Its roots differ, have magnitudes from 1e-3 to 1e6 1/s, and none is real
+    and positive."""
 
 
 class _GuideDict(TypedDict):

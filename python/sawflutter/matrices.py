@@ -23,11 +23,13 @@ class Matrices(Entry):
     q'' + (2 Ω G + C) q' + (K + Ω² S + Ω N) q = f, Ω in rad/s; the mass matrix is the identity. The
     basis functions for n = 0 nodal diameters are the radial functions; for each n ≥ 1 they are the
     radial functions times cos nθ, followed by those times sin nθ. An unknown √m h for each head of a
-    guide arm, with mass m and deflection h, follows those of n = 0.
+    guide arm, with mass m and deflection h, follows those of n = 0, and then one for each internal
+    state of films and controllers.
 
     Attributes
     ----------
-    stiffness : K in 1/s²: bending, guides, membrane stress that does not depend on speed.
+    stiffness : K in 1/s²: bending, guides, membrane stress that does not depend on speed; symmetric
+        without films and controllers.
     spin : S: centrifugal stress less the convective part.
     gyroscopic : G, skew.
     damping : C in 1/s; None without damping.

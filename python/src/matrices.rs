@@ -33,7 +33,7 @@ pub fn matrices<'py>(
         };
         let system = GyroscopicSystem::of_plate(&plate);
         let mut named = vec![
-            ("stiffness", bytes(&system.stiffness)),
+            ("stiffness", bytes(&system.stiffness_at(0.0))),
             ("spin", bytes(&system.spin)),
             ("gyroscopic", bytes(&system.gyroscopic)),
         ];

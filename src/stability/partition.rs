@@ -11,6 +11,9 @@ const LEAST_STEP: f64 = 1e-9;
 /// Two eigenvalues may coalesce if their difference, continued by its slope, falls below this share of its size.
 const COALESCING: f64 = 0.3;
 
+/// Numbers decay together if they differ over a piece by less than this share of their decay.
+const TOGETHER: f64 = 0.25;
+
 /// Indices of the eigenvalues of a group in the samples at both ends.
 pub type Places = [Vec<usize>; 2];
 
@@ -82,7 +85,7 @@ fn by_frequency(
 }
 
 /// Groups of the eigenvalues near the real axis, by growth, without groups whose decay rates all exceed the
-/// highest frequency.
+/// highest frequency, and without those whose numbers decay together.
 fn about_the_axis(
     sides: &[Side<'_>; 2],
     ranges: [(usize, usize); 2],
@@ -111,7 +114,23 @@ fn about_the_axis(
         });
         all.any(|growth| growth >= -top_rad_per_s)
     };
-    parts.filter(is_seen).collect()
+    parts
+        .filter(|places| {
+            let of_end = |end: usize| places[end].iter().map(move |&place| sides[end].z[place]);
+            let all: Vec<Sloped> = of_end(0).chain(of_end(1)).collect();
+            is_seen(places) && !(places[0].len() > 1 && decay_together(&all, sides[0].width))
+        })
+        .collect()
+}
+
+/// Whether numbers at two speeds, that far apart, are so near to each other and decay so fast that none can grow between: films of equal
+/// lag on many pads have many real numbers that are nearly equal, and none can be told from the next.
+pub fn decay_together(numbers: &[Sloped], width: f64) -> bool {
+    let largest = |part: &dyn Fn(&Sloped) -> f64| numbers.iter().map(part).fold(f64::MIN, f64::max);
+    let growth = largest(&|(z, _)| z.re);
+    let apart = largest(&|(z, _)| (z - numbers[0].0).norm());
+    let moved = width * largest(&|(_, slope)| slope.norm());
+    apart + moved < TOGETHER * -growth
 }
 
 /// Eigenvalues at one end of a piece, and the distance to the other end, negative from the upper one.

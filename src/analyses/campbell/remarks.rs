@@ -66,7 +66,6 @@ pub fn terms(scene: &Scene, plate: &Plate) -> Vec<String> {
         add(membrane.is_some_and(|stress| stress.has(source)), name);
     }
     add(plate.edge_stiffness.is_some(), "forces of the cut K_e");
-    let contact = &plate.contact;
     let guides = scene.guides().iter();
     let stiff = guides
         .clone()
@@ -90,8 +89,6 @@ pub fn terms(scene: &Scene, plate: &Plate) -> Vec<String> {
         wood.is_some_and(|wood| wood.typed.damping_n_s_per_m > 0.0),
         "wood damping C",
     );
-    let without_potential = contact.nonconservative_stiffness().is_some();
-    add(without_potential, "contact forces without potential K_n");
     let damping = plate.damping.as_ref();
     add(
         damping.is_some_and(|d| d.air_n_s_per_m3 > 0.0),
@@ -134,7 +131,10 @@ pub fn warnings(
 /// Names the growing poles of controllers of pads.
 fn unstable_pads(scene: &Scene) -> Option<String> {
     let of_guide = |guide: &Guide| {
-        let poles = guide.law.iter().flat_map(PadLaw::growing_poles_per_s);
+        let poles = guide
+            .controller
+            .iter()
+            .flat_map(PadLaw::growing_poles_per_s);
         let shown = poles.map(|pole| match pole.im {
             0.0 => format!("{} 1/s", shown_to(4, pole.re)),
             im => format!("{} ± {}i 1/s", shown_to(4, pole.re), shown_to(4, im)),

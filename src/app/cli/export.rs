@@ -61,7 +61,7 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<()> {
     };
     let system = GyroscopicSystem::of_plate(&plate);
     let mut files: Vec<NamedFile> = vec![
-        ("stiffness.npy", npy(&system.stiffness)),
+        ("stiffness.npy", npy(&system.stiffness_at(0.0))),
         ("spin.npy", npy(&system.spin)),
         ("gyroscopic.npy", npy(&system.gyroscopic)),
     ];
@@ -76,7 +76,7 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<()> {
         "condition": scene.condition(),
         "equation": "q'' + (2*W*gyroscopic + damping) q' + (stiffness + W^2*spin + W*circulatory) q = 0, W in rad/s",
         "units": { "stiffness": "1/s^2", "spin": "1", "gyroscopic": "1", "damping": "1/s", "circulatory": "1/s" },
-        "unknowns": "n = 0: J cosines, and sqrt(m) h for each guide head with mass m and deflection h; then for each n >= 1: J cosines, J sines; J = radial_functions; mass matrix one",
+        "unknowns": "n = 0: J cosines, sqrt(m) h for each guide head with mass m and deflection h, and the states of films and controllers; then for each n >= 1: J cosines, J sines; J = radial_functions; mass matrix one",
         "max_diameters": plate.resolution.max_diameters,
         "radial_functions": plate.radial_functions(),
         "files": files.iter().map(|(name, _)| *name).collect::<Vec<_>>(),

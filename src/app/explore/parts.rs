@@ -121,7 +121,7 @@ fn add_film(pad: &mut GuideFile) {
     });
 }
 
-/// Damping of a pad that has none, when a film is added.
+/// Damping by a film or a controller that is added.
 const USUAL_DAMPING_N_S_PER_M: f64 = 300.0;
 
 /// A controller that damps: the velocity times 300 N·s/m through a low pass of 1 ms.

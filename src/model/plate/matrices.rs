@@ -137,7 +137,8 @@ impl Plate {
     }
 
     /// Every basis function φᵢ at a point of the blade, in 1/√kg: N values in the order of the
-    /// unknowns, zero for heads of guide arms and for internal states of pads. A point force F there is F φ on the right side of the equation of motion.
+    /// unknowns, zero for heads of guide arms and for internal states of pads. A point force F there is F φ on the right
+    /// side of the equation of motion.
     pub fn functions_at(&self, radius_m: f64, angle_rad: f64) -> Vec<f64> {
         let mut values = Vec::with_capacity(self.degrees_of_freedom());
         // The radial functions of one nodal diameter differ from those of all others.

@@ -1,6 +1,5 @@
 //! Validated guide pads, angles in radians.
 
-use super::pad_law::law;
 use super::rule::refuse;
 use super::{
     Blade, ContactLaw, GuideFile, GuideShape, GuideSide, PadLaw, RefusedValue, SceneError,
@@ -17,8 +16,22 @@ pub(crate) struct Guide {
     pub typed: GuideFile,
     /// Gap of a pad that lifts off; `None` for a linear pad.
     pub lifting: Option<Lifting>,
-    /// What film and controller add to spring and damper; `None` without both.
-    pub law: Option<PadLaw>,
+    /// The law of the film on each rigid motion of the pad, in place of its damper.
+    pub film: Option<PadLaw>,
+    /// The law of the controller on the mean deflection over the pad.
+    pub controller: Option<PadLaw>,
+}
+
+impl Guide {
+    /// The laws of film and controller, each with the rigid motion of the pad on which it acts: its heave, 0, or a tilt, 1 or 2.
+    pub fn laws(&self) -> impl Iterator<Item = (usize, &PadLaw)> {
+        let motions = if self.typed.is_point() { 1 } else { 3 };
+        let film = self
+            .film
+            .iter()
+            .flat_map(move |law| (0..motions).map(move |motion| (motion, law)));
+        film.chain(self.controller.iter().map(|law| (0, law)))
+    }
 }
 
 /// A pad that touches the blade only beyond a gap.
@@ -133,8 +146,13 @@ impl GuideFile {
 pub fn guide(index: usize, pad: &GuideFile, blade: &Blade) -> Result<Guide, SceneError> {
     let of = |name: &str| format!("guides[{index}].{name}");
     let lifting = lifting(&of, pad)?;
+    lifts_alone(&of, pad)?;
     arm(&of, pad)?;
-    let law = law(&of, pad)?;
+    let film = film(&of, pad)?;
+    let controller = pad.controller.as_ref();
+    let controller = controller
+        .map(|it| it.law(|name| of(&format!("controller.{name}"))))
+        .transpose()?;
     if (pad.radial_length_m == 0.0) != (pad.tangential_length_m == 0.0) {
         return Err(refuse(
             &of("tangential_length_m"),
@@ -162,7 +180,8 @@ pub fn guide(index: usize, pad: &GuideFile, blade: &Blade) -> Result<Guide, Scen
         index,
         typed: pad.clone(),
         lifting,
-        law,
+        film,
+        controller,
     })
 }
 
@@ -217,17 +236,53 @@ fn lifting(of: &impl Fn(&str) -> String, typed: &GuideFile) -> Result<Option<Lif
     }))
 }
 
+/// Checks that a pad that lifts off has neither arm nor film nor controller.
+fn lifts_alone(of: &impl Fn(&str) -> String, pad: &GuideFile) -> Result<(), SceneError> {
+    if pad.contact == ContactLaw::Linear {
+        return Ok(());
+    }
+    let arm =
+        "a pad that lifts off stands on the frame; give it the stiffness of pad and arm in series";
+    let film = "a pad that lifts off has no film that pulls";
+    let controller = "a pad that lifts off cannot pull";
+    let parts = [
+        (
+            "arm.stiffness_n_per_m",
+            pad.arm.map(|arm| shown(arm.stiffness_n_per_m)),
+            arm,
+        ),
+        ("film.lag_s", pad.film.map(|film| shown(film.lag_s)), film),
+        (
+            "controller",
+            pad.controller.as_ref().map(|_| "given".to_owned()),
+            controller,
+        ),
+    ];
+    for (name, given, remedy) in parts {
+        if let Some(given) = given {
+            let allowed = "left out where the contact is one_sided";
+            return Err(RefusedValue::new(of(name), given, allowed, remedy).into());
+        }
+    }
+    Ok(())
+}
+
+/// The law of the film of a pad, if it has one.
+fn film(of: &impl Fn(&str) -> String, pad: &GuideFile) -> Result<Option<PadLaw>, SceneError> {
+    let damping = pad.damping_n_s_per_m;
+    if pad.film.is_some() && damping == 0.0 {
+        let allowed = "above 0 where the pad has a film";
+        let remedy = "give the damping of the film, whose force lags, or leave the film out";
+        return Err(refuse(&of("damping_n_s_per_m"), damping, allowed, remedy));
+    }
+    Ok(pad.film.map(|film| PadLaw::lagging(damping, film.lag_s)))
+}
+
 /// Validates the arm of a pad.
 fn arm(of: &impl Fn(&str) -> String, pad: &GuideFile) -> Result<(), SceneError> {
     let Some(arm) = pad.arm else {
         return Ok(());
     };
-    if pad.contact == ContactLaw::OneSided {
-        let allowed = "left out where the contact is one_sided";
-        let remedy = "a pad that lifts off stands on the frame; give it the stiffness of pad and arm in series";
-        let key = of("arm.stiffness_n_per_m");
-        return Err(refuse(&key, arm.stiffness_n_per_m, allowed, remedy));
-    }
     if arm.damping_n_s_per_m > 0.0 && arm.loss_factor > 0.0 {
         let allowed = "0 where the arm has damping_n_s_per_m";
         let remedy = "give one of them";

@@ -4,9 +4,9 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 /// The film of water, oil or air between a pad and the blade. What it presses out and draws in damps the blade, and its
-/// compressibility delays this force: τ df/dt + f = c dw/dt with the damping c of the pad and the mean deflection w over the pad, so
-/// that a film damps slow motions and is a spring of c/τ for fast ones. Deflections without a mean exchange fluid only within the pad;
-/// their damping does not lag.
+/// compressibility delays this force: τ df/dt + f = c dw/dt with the damping c of the pad, for the heave and for the two tilts w of the
+/// blade over the pad, so that a film damps slow motions and is a spring of c/τ for fast ones. Within the pad the blade is taken as
+/// rigid.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct GuideFilmFile {

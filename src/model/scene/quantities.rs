@@ -24,9 +24,11 @@ const FEED: Span = Span::closed(1e-6, 1e3);
 const FORCE: Span = Span::closed(-1e9, 1e9);
 /// Temperature rise. No blade survives a larger one.
 const RISE: Span = Span::closed(-2e3, 2e3);
-const COEFFICIENT: Span = Span::closed(-1e60, 1e60);
 /// Steel breaks at 3e9 Pa.
 const STRESS: Span = Span::closed(-1e11, 1e11);
+
+/// Coefficient of a transfer function, in a unit of its own.
+const COEFFICIENT: Span = Span::closed(-1e60, 1e60);
 
 /// All numbers that a scene may contain, in the order of the schema. The ranges of saws in use include all machines that are
 /// built: diameters from 50 mm (slitting saws) to 4 m (stone saws), materials from aluminium to tungsten carbide, guides from
@@ -64,9 +66,8 @@ pub static QUANTITIES: [Quantity; 109] = [
         .typically(1.5, "", 0.3, 5.0, "assumption of this program: a steel block of 50 mm by 50 mm by 50 mm and 33/140 of the arm's mass"),
     q("guides[].arm.damping_n_s_per_m", "damping of the guide's arm", "N·s/m", CONTACT, 1e-2, 1e6).of_kind(Kind::Damping),
     q("guides[].arm.loss_factor", "loss factor of the guide's arm", "", SHARE, 1e-4, 0.3),
-    q("guides[].film.lag_s", "lag of the guide's film", "s", Span::closed(1e-9, 1e3), 1e-7, 0.1)
+    q("guides[].film.lag_s", "lag of the guide's film", "s", Span::closed(1e-7, 10.0), 1e-7, 0.1)
         .typically(1e-4, "", 1e-5, 1e-2, "computed from 12ηb²/(π²h²p) of films 0.05 mm thick under pads 20 mm wide: 4e-5 s of air, 4e-5 to 2e-3 s of water with bubbles, whose bulk modulus is 5 to 0.1 MPa (Blech, J. Lubr. Technol. 105, 1983)"),
-    // Coefficients of a transfer function have units of their own.
     q("guides[].controller.numerator[]", "coefficient of the numerator", "", COEFFICIENT, -1e60, 1e60),
     q("guides[].controller.denominator[]", "coefficient of the denominator", "", COEFFICIENT, -1e60, 1e60),
     // No pad of a saw has a larger offset.

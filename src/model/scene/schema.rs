@@ -21,8 +21,8 @@ pub(crate) struct Key {
     pub of_kind: Option<String>,
 }
 
-/// JSON schema of a scene file. Numbers have their range, and their unit, name, usual range and typical value as `x-unit`,
-/// `x-name`, `x-usual` and `x-typical`.
+/// JSON schema of a scene file. Numbers have their range, and their unit, name, usual range, if it is narrower, and typical value
+/// as `x-unit`, `x-name`, `x-usual` and `x-typical`.
 pub fn json_schema() -> Value {
     let mut schema = schemars::schema_for!(SceneFile).to_value();
     for key in keys(&schema) {
@@ -60,7 +60,9 @@ fn describe(quantity: &Quantity, node: &mut Map<String, Value>) {
     if !quantity.unit.is_empty() {
         node.insert("x-unit".to_owned(), json!(quantity.unit));
     }
-    node.insert("x-usual".to_owned(), json!(quantity.usual));
+    if quantity.usual != (allowed.from, allowed.to) {
+        node.insert("x-usual".to_owned(), json!(quantity.usual));
+    }
     if let Some(typical) = quantity.typical {
         node.insert("x-typical".to_owned(), json!(typical));
         let known = node

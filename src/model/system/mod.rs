@@ -52,7 +52,7 @@ pub struct GyroscopicSystem {
     /// K_circ = C_i G + s C_a G, in 1/s: material damping C_i turns with the blade, and air, with the part C_a
     /// of C, with the share s of its speed.
     pub circulatory: Option<Mat<f64>>,
-    /// K_n, in 1/s², without symmetry: contact forces that have no potential.
+    /// K_n, in 1/s², without symmetry: contact forces that have no potential, and internal states of pads.
     pub nonconservative: Option<Mat<f64>>,
     /// Rigid motions z without stiffness, orthonormal: K(Ω) z = 0 at every speed.
     pub free_rigid: Vec<Col<f64>>,
@@ -155,9 +155,7 @@ impl GyroscopicSystem {
     /// Finds free heave and tilt, and their drift. `first` is the index of the first unknown in the basis of the
     /// plate.
     fn find_free_rigid_motions(&mut self, plate: &Plate, first: usize) {
-        // A force without a potential does work on a rigid motion without stiffness, so that the momentum of
-        // this motion is not conserved.
-        if !plate.basis.has_rigid_motions() || self.nonconservative.is_some() {
+        if !plate.basis.has_rigid_motions() {
             return;
         }
         let tilt = plate.offset(1);
@@ -169,27 +167,29 @@ impl GyroscopicSystem {
         if rigid.is_empty() {
             return;
         }
-        // The internal states of pads follow a motion as at rest.
+        let resting = self.stiffness_at_rest();
+        // The internal states of pads follow a motion as at rest; a block without contacts does not hold them.
         let states: Vec<usize> = plate
             .states()
             .filter_map(|state| state.checked_sub(first))
+            .filter(|state| resting[(*state, *state)] != 0.0)
             .collect();
-        let followed = |state: usize, motion: usize| {
-            -self.stiffness[(state, motion)] / self.stiffness[(state, state)]
-        };
+        let followed =
+            |state: usize, motion: usize| -resting[(state, motion)] / resting[(state, state)];
+        let mut stiffest = 0.0_f64;
         let held = Mat::from_fn(rigid.len(), rigid.len(), |i, j| {
+            let own = resting[(rigid[i], rigid[j])];
+            stiffest = stiffest.max(own.abs());
             let by_states = states
                 .iter()
-                .map(|state| self.stiffness[(rigid[i], *state)] * followed(*state, rigid[j]));
-            self.stiffness[(rigid[i], rigid[j])] + by_states.sum::<f64>()
+                .map(|state| resting[(rigid[i], *state)] * followed(*state, rigid[j]));
+            own + by_states.sum::<f64>()
         });
         // A stiffness that is not finite holds every motion here, and is refused by every eigenproblem.
         let eigen = SymmetricEigen::or_nan(held.as_ref());
-        let stiffest = eigen
-            .values
-            .iter()
-            .fold(0.0_f64, |most, x| most.max(x.abs()));
-        let largest = self.stiffness.norm_max();
+        let all = eigen.values.iter();
+        let stiffest = all.fold(stiffest, |most, x| most.max(x.abs()));
+        let largest = resting.norm_max();
         for k in (0..rigid.len()).filter(|&k| eigen.values[k] <= ROUNDING * stiffest) {
             let mut z = Col::zeros(self.order());
             for (i, &index) in rigid.iter().enumerate() {
@@ -198,12 +198,25 @@ impl GyroscopicSystem {
                     z[*state] += eigen.vectors[(i, k)] * followed(*state, index);
                 }
             }
-            if (&self.stiffness * &z).norm_max() <= ROUNDING * largest {
+            // A force without a potential may do work on a motion that it does not resist; the momentum of the motion then changes.
+            let forces = [&resting * &z, resting.transpose() * &z];
+            if forces
+                .iter()
+                .all(|force| force.norm_max() <= ROUNDING * largest)
+            {
                 self.free_rigid.push(z);
             }
         }
         if !self.free_rigid.is_empty() {
             self.drift = self.drift_of_free_motions();
+        }
+    }
+
+    /// K₀ + K_n, in 1/s².
+    fn stiffness_at_rest(&self) -> Mat<f64> {
+        match &self.nonconservative {
+            Some(nonconservative) => &self.stiffness + nonconservative,
+            None => self.stiffness.clone(),
         }
     }
 
@@ -272,12 +285,9 @@ impl GyroscopicSystem {
 
     /// K(Ω) = K₀ + Ω²(K_σ − N) + Ω K_circ, in 1/s²; symmetric without K_circ.
     pub fn stiffness_at(&self, speed_rad_per_s: f64) -> Mat<f64> {
-        let mut stiffness = &self.stiffness + Scale(speed_rad_per_s.powi(2)) * &self.spin;
+        let mut stiffness = self.stiffness_at_rest() + Scale(speed_rad_per_s.powi(2)) * &self.spin;
         if let Some(circulatory) = &self.circulatory {
             stiffness += Scale(speed_rad_per_s) * circulatory;
-        }
-        if let Some(nonconservative) = &self.nonconservative {
-            stiffness += nonconservative;
         }
         stiffness
     }

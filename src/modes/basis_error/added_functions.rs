@@ -21,6 +21,8 @@ pub enum AddedFunctions {
         larger: Box<StructuredStiffness>,
         /// Indices of the old functions.
         kept: Vec<usize>,
+        /// K_n of the larger basis.
+        nonconservative: Option<Mat<f64>>,
     },
 }
 
@@ -31,6 +33,9 @@ pub struct DenseFunctions {
     stiffness: Mat<f64>,
     /// K_σ − N between the new functions and those of the component.
     spin: Mat<f64>,
+    /// K_n between the new functions and those of the component, and the transpose of that between those of the component and the new
+    /// ones.
+    nonconservative: Option<[Mat<f64>; 2]>,
     /// Factor of S = K_nn − K_nc K_cc⁻¹ K_cn.
     factor: Llt<f64>,
 }
@@ -43,6 +48,7 @@ impl AddedFunctions {
 
     pub fn of_coupled(plate: &Plate, larger: &Plate) -> Result<Self, SpectrumError> {
         let kept = kept(plate, larger, 0..=plate.max_diameters());
+        let nonconservative = larger.contact.nonconservative_stiffness();
         Cancellation::current().check()?;
         let is_large = larger.degrees_of_freedom() >= LARGE;
         let nearly = is_large
@@ -55,6 +61,7 @@ impl AddedFunctions {
             return Ok(AddedFunctions::Structured {
                 larger: Box::new(larger),
                 kept,
+                nonconservative: nonconservative.cloned(),
             });
         }
         Cancellation::current().check()?;
@@ -62,46 +69,57 @@ impl AddedFunctions {
         DenseFunctions::new(&system, &kept).map(AddedFunctions::Dense)
     }
 
-    /// QᵀK_cn S⁻¹ K_nc Q, in 1/s², for the columns Q.
+    /// QᵀK_cn S⁻¹ K_nc Q, in 1/s², for the columns Q of waves that stand still, on which K_n does not act.
     pub fn softening(&self, speed_rad_per_s: f64, columns: &Mat<f64>) -> Mat<f64> {
         match self {
             AddedFunctions::Dense(dense) => {
-                let force = dense.whitened_force(speed_rad_per_s, columns);
+                let force = dense.whitened(dense.force(speed_rad_per_s, columns));
                 force.transpose() * &force
             }
-            AddedFunctions::Structured { larger, kept } => {
+            AddedFunctions::Structured { larger, kept, .. } => {
                 let force = force_on_new(larger, kept, speed_rad_per_s, columns);
                 force.transpose() * larger.at_rest.solve(force.as_ref())
             }
         }
     }
 
-    /// Diagonal of [`AddedFunctions::softening`].
-    pub fn softened(&self, speed_rad_per_s: f64, columns: &Mat<f64>) -> Vec<f64> {
-        let places = 0..columns.ncols();
+    /// The same for modes, on which K_n acts.
+    pub fn softening_of_modes(&self, speed_rad_per_s: f64, columns: &Mat<f64>) -> Mat<f64> {
         match self {
-            AddedFunctions::Dense(dense) => {
-                let force = dense.whitened_force(speed_rad_per_s, columns);
-                places.map(|k| force.col(k).squared_norm_l2()).collect()
+            AddedFunctions::Dense(
+                dense @ DenseFunctions {
+                    nonconservative: Some(parts),
+                    ..
+                },
+            ) => {
+                let force = dense.force(speed_rad_per_s, columns);
+                let [right, left] = parts
+                    .each_ref()
+                    .map(|part| dense.whitened(&force + part * columns));
+                left.transpose() * right
             }
-            AddedFunctions::Structured { larger, kept } => {
+            AddedFunctions::Structured {
+                larger,
+                kept,
+                nonconservative: Some(matrix),
+            } => {
                 let force = force_on_new(larger, kept, speed_rad_per_s, columns);
-                let response = larger.at_rest.solve(force.as_ref());
-                places
-                    .map(|k| force.col(k).transpose() * response.col(k))
-                    .collect()
+                let wide = widened(larger, kept, columns);
+                let [right, left] = [matrix * &wide, matrix.transpose() * &wide]
+                    .map(|more| &force + on_new(more, kept));
+                left.transpose() * larger.at_rest.solve(right.as_ref())
             }
+            _ => self.softening(speed_rad_per_s, columns),
         }
     }
 
-    /// The value of [`AddedFunctions::softened`] for one column and one part of K_nc, given on the larger basis.
+    /// The value of [`AddedFunctions::softening`] for one column and one part of K_nc, given on the larger basis.
     /// `None` for a saw without the structure of a guided blade.
     pub fn softening_by(&self, part: &Mat<f64>, shape: &Mat<f64>) -> Option<f64> {
-        let AddedFunctions::Structured { larger, kept } = self else {
+        let AddedFunctions::Structured { larger, kept, .. } = self else {
             return None;
         };
-        let mut force = part * widened(larger, kept, shape);
-        kept.iter().for_each(|&place| force[(place, 0)] = 0.0);
+        let force = on_new(part * widened(larger, kept, shape), kept);
         Some((force.transpose() * larger.at_rest.solve(force.as_ref()))[(0, 0)])
     }
 }
@@ -115,8 +133,13 @@ fn force_on_new(
 ) -> Mat<f64> {
     let wide = widened(larger, kept, columns);
     let product = larger.full.times(wide.as_ref());
-    let mut force = product.map_or(wide, |product| product.stiffness_at(speed_rad_per_s));
-    for k in 0..columns.ncols() {
+    let force = product.map_or(wide, |product| product.stiffness_at(speed_rad_per_s));
+    on_new(force, kept)
+}
+
+/// Forces without those on the old functions.
+fn on_new(mut force: Mat<f64>, kept: &[usize]) -> Mat<f64> {
+    for k in 0..force.ncols() {
         kept.iter().for_each(|&place| force[(place, k)] = 0.0);
     }
     force
@@ -157,20 +180,28 @@ impl DenseFunctions {
         Ok(DenseFunctions {
             stiffness: block(&larger.stiffness, &added, kept),
             spin: block(&larger.spin, &added, kept),
+            nonconservative: larger.nonconservative.as_ref().map(|matrix| {
+                let of_new = block(matrix, &added, kept);
+                [of_new, block(matrix, kept, &added).transpose().to_owned()]
+            }),
             factor: schur.llt(Side::Lower).map_err(unstable)?,
         })
     }
 
-    /// L⁻¹K_nc Q with the Cholesky factor L of S = LLᵀ.
-    fn whitened_force(&self, speed_rad_per_s: f64, columns: &Mat<f64>) -> Mat<f64> {
-        let mut force =
-            &self.stiffness * columns + Scale(speed_rad_per_s.powi(2)) * &self.spin * columns;
+    /// K_nc Q without K_n.
+    fn force(&self, speed_rad_per_s: f64, columns: &Mat<f64>) -> Mat<f64> {
+        &self.stiffness * columns + Scale(speed_rad_per_s.powi(2)) * &self.spin * columns
+    }
+
+    /// L⁻¹ times a force, with the Cholesky factor L of S = LLᵀ.
+    fn whitened(&self, mut force: Mat<f64>) -> Mat<f64> {
         solve_lower_triangular_in_place(self.factor.L(), force.as_mut(), Par::Seq);
         force
     }
 }
 
-/// Indices of the functions of some harmonics of a plate in a larger basis, ascending. Both have the same heads of guide arms and states of pads.
+/// Indices of the functions of some harmonics of a plate in a larger basis, ascending. Both have the same heads of guide arms and states of
+/// pads.
 fn kept(plate: &Plate, larger: &Plate, range: std::ops::RangeInclusive<usize>) -> Vec<usize> {
     let (few, many) = (plate.basis.count(), larger.basis.count());
     let first = larger.offset(*range.start());

@@ -86,9 +86,10 @@ impl BasisError {
                 .map(|&k| component.coordinates(&modes[k].shape))
                 .collect();
             let columns = halves(component.full.order(), shapes.iter());
-            let softened = self.added[index].softened(speed_rad_per_s, &columns);
+            let softened = self.added[index].softening_of_modes(speed_rad_per_s, &columns);
             for (k, (&place, q)) in places.iter().zip(&shapes).enumerate() {
-                let softening = softened[2 * k] + softened[2 * k + 1];
+                let [re, im] = [2 * k, 2 * k + 1];
+                let softening = softened[(re, re)] + softened[(im, im)];
                 let lambda = modes[place].mode.lambda;
                 let turned = Scale(c64::new(speed_rad_per_s, 0.0))
                     * real_times(&component.full.gyroscopic, q);
@@ -105,14 +106,14 @@ impl BasisError {
         errors
     }
 
-    /// Reduction of the stiffness of a component by the added functions, projected on columns, in 1/s².
+    /// Reduction of the stiffness of a component by the added functions, projected on modes, in 1/s².
     pub fn softening(
         &self,
         component: usize,
         speed_rad_per_s: f64,
         columns: &Mat<f64>,
     ) -> Mat<f64> {
-        self.added[component].softening(speed_rad_per_s, columns)
+        self.added[component].softening_of_modes(speed_rad_per_s, columns)
     }
 
     /// qᵀK_cn S⁻¹ K_nc q, in 1/s², with the block K_nc of one part of the stiffness, given on the larger

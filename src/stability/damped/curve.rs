@@ -10,6 +10,7 @@ use super::spectrum::finite;
 use crate::modes::{nearest_pairs, smallest};
 use crate::stability::band::CurvePoint;
 use crate::stability::group::Sloped;
+use crate::stability::partition::decay_together;
 use crate::stability::pieces::{Grouped, Piece};
 use crate::stability::verdict::growth_between;
 
@@ -28,6 +29,8 @@ const CURVE_TOLERANCE: f64 = 1e-3;
 /// Frequencies below this share of the highest belong to real eigenvalues: a double real eigenvalue is
 /// accurate only to the square root of rounding.
 const REAL: f64 = 1e-10;
+/// Difference of two eigenvalues, as a share of their size, that is rounding: that of double ones is its square root.
+const DOUBLE: f64 = 3e-8;
 
 /// An eigenvalue at the last speed up to which it was followed, with its curve.
 type Tip = (Sloped, Curve);
@@ -142,7 +145,8 @@ impl Follower<'_> {
     /// Continues curves over a step, in halves if that is uncertain, to the eigenvalues `found`.
     fn step(&mut self, tips: Vec<Tip>, [a, b]: [f64; 2], found: Vec<Sloped>) -> Vec<Tip> {
         let matched = matched(&tips, &found, b - a);
-        if b - a <= self.least_rad_per_s {
+        let is_settled = matched.is_none() && are_alike(&tips, &found);
+        if is_settled || b - a <= self.least_rad_per_s {
             let (kept, lost) = linked(tips, found, b);
             self.ended.extend(lost.into_iter().map(|(_, curve)| curve));
             return kept;
@@ -214,6 +218,47 @@ fn matched(tips: &[Tip], found: &[Sloped], width: f64) -> Option<Vec<usize>> {
         places.push(best);
     }
     Some(places)
+}
+
+/// Whether the eigenvalues at both ends of a step that cannot be told from each other need not be: they decay together, are real and
+/// equal within the allowed error of a curve, as those of guides that lie evenly around the blade, or are equal within rounding, by which
+/// two real ones and a complex pair are not distinct. Smaller steps could not tell them from each other either.
+fn are_alike(tips: &[Tip], found: &[Sloped]) -> bool {
+    let sides = [tips.iter().map(|(tip, _)| *tip).collect(), found.to_vec()];
+    let uncertain = |side: usize| -> Vec<Sloped> {
+        let all: &[Sloped] = &sides[side];
+        let is_uncertain = |k: &usize| {
+            let distance = |(z, _): &Sloped| (z - all[*k].0).norm();
+            let beside = (0..all.len())
+                .filter(|other| other != k)
+                .map(|k| distance(&all[k]));
+            let across = sides[1 - side].iter().map(distance);
+            let [beside, across] = [
+                beside.fold(f64::INFINITY, f64::min),
+                across.fold(f64::INFINITY, f64::min),
+            ];
+            across > STRICT * beside
+        };
+        (0..all.len())
+            .filter(is_uncertain)
+            .map(|k| all[k])
+            .collect()
+    };
+    let [before, after] = [0, 1].map(uncertain);
+    let both = [before.as_slice(), after.as_slice()].concat();
+    let largest =
+        |part: &dyn Fn(c64) -> f64| both.iter().map(|(z, _)| part(*z)).fold(0.0, f64::max);
+    let Some((first, _)) = both.first() else {
+        return false;
+    };
+    let apart = largest(&|z| (z - first).norm());
+    let is_real = before.len() == after.len() && largest(&|z| z.im) == 0.0;
+    let allowed = if is_real {
+        CURVE_TOLERANCE * largest(&|z| z.re)
+    } else {
+        DOUBLE * largest(&|z| z.norm())
+    };
+    apart <= allowed || decay_together(&both, 0.0)
 }
 
 /// Continues curves by the nearest eigenvalues, real ones by real ones; other eigenvalues begin new curves.

@@ -6,46 +6,60 @@ use std::f64::consts::PI;
 
 use faer::{Col, Mat, Scale};
 
-use crate::model::scene::{Blade, Guide, GuideArmFile, GuideFile, GuideShape};
+use crate::model::scene::{Blade, Guide, GuideFile, GuideShape, PadLaw};
 
 use super::super::Plate;
 use super::super::quadrature;
-use super::patch::{Circle, coupling, mean, sufficient_points};
+use super::patch::{Circle, coupling, means, sufficient_points};
 use super::{Contact, ContactTerms};
 
 /// The terms are the mean of φᵢφⱼ over the pad, times the stiffness of the pad in K_g and times its damping in C. A pad on an arm
 /// without mass is in series with it, because the pad moves as a rigid body: K_g = k (mean φᵢφⱼ − k/(ak + k_a) mean φᵢ mean φⱼ) with
-/// the share a of the pad on the blade. A contact adds no unknown: the mass of an arm and the lag of a film are not contained.
+/// the share a of the pad on the blade. A contact adds no unknown: the mass of an arm, the lag of a film and a controller
+/// are not contained.
 impl Contact for GuideFile {
     fn add_to(&self, plate: &Plate, terms: &mut ContactTerms) {
         let mut coupling = coupling_over(plate, self);
         if let Some(arm) = self.arm {
-            let stiffness = self.stiffness_n_per_m * area_share(plate, self);
+            let Rigid { share, mean, .. } = Rigid::new(plate, self);
+            let stiffness = self.stiffness_n_per_m * share;
             let share = self.stiffness_n_per_m / (stiffness + arm.stiffness_n_per_m);
-            let mean = mean_over(plate, self);
             coupling -= Scale(share) * &mean * mean.transpose();
         }
-        self.add_coupling(coupling, terms);
+        add_coupling(
+            coupling,
+            self.stiffness_n_per_m,
+            self.damping_n_s_per_m,
+            terms,
+        );
     }
 }
 
 /// The terms of a pad on a head with mass m act on the difference of the deflection of the blade and that h of the head: for the
-/// head's unknown √m h the function is −1/√m.
+/// head's unknown √m h the function is −1/√m. A film acts on the heave and the two tilts that the deflection has over the pad, in place
+/// of the damper, a controller on the heave.
 impl Contact for Guide {
     fn add_to(&self, plate: &Plate, terms: &mut ContactTerms) {
         let pad = &self.typed;
         let head = plate.head_of(self.index).zip(pad.arm);
-        if head.is_none() && self.law.is_none() {
+        if head.is_none() && self.laws().next().is_none() {
             return pad.add_to(plate, terms);
         }
         let mut coupling = coupling_over(plate, pad);
+        let Rigid {
+            share,
+            mut mean,
+            tilts: [along, across],
+        } = Rigid::new(plate, pad);
         if let Some((head, arm)) = head {
-            let mean = Scale(-1.0 / arm.mass_kg.sqrt()) * mean_over(plate, pad);
+            // A deflection of the head takes its part from each deflection of the pad, and from their mean.
+            let of_head = -1.0 / arm.mass_kg.sqrt();
             for i in 0..mean.nrows() {
-                coupling[(i, head)] += mean[i];
-                coupling[(head, i)] += mean[i];
+                coupling[(i, head)] += of_head * mean[i];
+                coupling[(head, i)] += of_head * mean[i];
             }
-            coupling[(head, head)] += area_share(plate, pad) / arm.mass_kg;
+            coupling[(head, head)] += of_head * of_head * share;
+            mean[head] = of_head * share;
             let damping = arm.viscous_n_s_per_m();
             if damping > 0.0 {
                 let order = plate.degrees_of_freedom();
@@ -54,59 +68,112 @@ impl Contact for Guide {
                 terms.add_damping(&of_arm);
             }
         }
-        if let Some(law) = &self.law {
-            let column = column_on_head(plate, pad, head);
-            let mean = &column * column.transpose();
+        let motions = [Scale(share.sqrt().recip()) * mean, along, across];
+        for (motion, law) in self.laws() {
+            let both = &motions[motion] * motions[motion].transpose();
             if law.damping_n_s_per_m != 0.0 {
-                terms.add_damping(&(Scale(law.damping_n_s_per_m) * &mean));
+                terms.add_damping(&(Scale(law.damping_n_s_per_m) * &both));
             }
-            if law.stiffness_n_per_m != 0.0 {
-                terms.add_symmetric_stiffness(Scale(law.stiffness_n_per_m) * mean);
+            let stiffness = law.stiffness_at_rest_n_per_m();
+            if stiffness != 0.0 {
+                terms.add_symmetric_stiffness(Scale(stiffness) * &both);
             }
-            for (unknown, state) in plate.states_of(self.index) {
-                state.oscillator.add_to(&column, unknown, terms);
+            let beside = law.stiffness_n_per_m - stiffness;
+            if beside != 0.0 {
+                terms.add_nonconservative_stiffness(&(Scale(beside) * both));
             }
         }
-        pad.add_coupling(coupling, terms);
+        for (unknown, state) in plate.states_of(self.index) {
+            state
+                .oscillator
+                .add_to(&motions[state.motion], unknown, terms);
+        }
+        let undelayed = if self.film.is_some() {
+            0.0
+        } else {
+            pad.damping_n_s_per_m
+        };
+        add_coupling(coupling, pad.stiffness_n_per_m, undelayed, terms);
     }
 }
 
-/// The mean deflection of the blade over a pad, less that of its head, times the root of the share of the pad on the blade: with the
-/// product of this column and itself the force at each point is that of the mean deflection.
-fn column_on_head(plate: &Plate, pad: &GuideFile, head: Option<(usize, GuideArmFile)>) -> Col<f64> {
-    let share = area_share(plate, pad);
-    let mut column = mean_over(plate, pad);
-    if let Some((head, arm)) = head {
-        column[head] = -share / arm.mass_kg.sqrt();
-    }
-    Scale(share.sqrt().recip()) * column
+/// The rigid motions that the deflection of a blade has over the part of a pad on it: with the product of a motion and itself the force
+/// at each point is that of this motion.
+struct Rigid {
+    /// Share of the pad that is on the blade.
+    share: f64,
+    /// Means of φᵢ over the pad, in 1/√kg; the heave is their product with 1/√share.
+    mean: Col<f64>,
+    /// Tilts along the radius through the centre of the pad and across it, in 1/√kg; zero for a point.
+    tilts: [Col<f64>; 2],
 }
 
-impl GuideFile {
-    /// Adds the terms of the pad with this mean of φᵢφⱼ.
-    fn add_coupling(&self, mut coupling: Mat<f64>, terms: &mut ContactTerms) {
-        if self.damping_n_s_per_m > 0.0 {
-            terms.add_damping(&(Scale(self.damping_n_s_per_m) * &coupling));
+impl Rigid {
+    fn new(plate: &Plate, pad: &GuideFile) -> Self {
+        let circles = circles(plate, pad, sufficient_points(plate));
+        let [mean, along, across] = means(plate, pad.angle_rad(), circles.iter());
+        // The means of 1, x, x² and y² over the pad, zero beside the blade.
+        let mut moments = [0.0; 4];
+        for circle in &circles {
+            let r = circle.radius_m;
+            let [one, x, _] = circle.moments(0);
+            let [_, along, across] = circle.moments(1);
+            let own = [one, x, r * along, r * across];
+            moments
+                .iter_mut()
+                .zip(own)
+                .for_each(|(sum, own)| *sum += own);
         }
-        if self.stiffness_n_per_m > 0.0 {
-            // The matrix is scaled in place, because a copy would take hundreds of megabytes for a large
-            // basis.
-            coupling *= Scale(self.stiffness_n_per_m);
-            terms.add_symmetric_stiffness(coupling);
-        }
+        let [share, x, along_squares, across_squares] = moments;
+        let centre = x / share;
+        let unit = |square: f64| {
+            // A pad of which a line is on the blade does not tilt along it.
+            let is_flat = square <= ROUNDING * along_squares;
+            Scale(if is_flat { 0.0 } else { square.sqrt().recip() })
+        };
+        let tilts = [
+            unit(along_squares - x * centre) * (along - Scale(centre) * &mean),
+            unit(across_squares) * across,
+        ];
+        Rigid { share, mean, tilts }
+    }
+}
+
+/// A square of an extent below this share of that of a distance from the axis is rounding.
+const ROUNDING: f64 = 1e-10;
+
+/// Adds the terms of a spring and a damper with this mean of φᵢφⱼ.
+fn add_coupling(
+    mut coupling: Mat<f64>,
+    stiffness_n_per_m: f64,
+    damping_n_s_per_m: f64,
+    terms: &mut ContactTerms,
+) {
+    if damping_n_s_per_m > 0.0 {
+        terms.add_damping(&(Scale(damping_n_s_per_m) * &coupling));
+    }
+    if stiffness_n_per_m > 0.0 {
+        // The matrix is scaled in place, because a copy would take hundreds of megabytes for a large
+        // basis.
+        coupling *= Scale(stiffness_n_per_m);
+        terms.add_symmetric_stiffness(coupling);
     }
 }
 
 /// Force of the blade on a linear pad at rest, in N/√kg: its product with the unknowns is the force.
 pub(crate) fn pad_force(plate: &Plate, guide: &Guide) -> Col<f64> {
     let pad = &guide.typed;
-    let of_law = guide.law.as_ref().map_or(0.0, |law| law.stiffness_n_per_m);
-    let stiffness = pad.stiffness_n_per_m + of_law;
-    let mut force = Scale(stiffness) * mean_over(plate, pad);
+    let of_law = guide
+        .controller
+        .as_ref()
+        .map(PadLaw::stiffness_at_rest_n_per_m);
+    let stiffness = pad.stiffness_n_per_m + of_law.unwrap_or(0.0);
+    let Rigid { share, mean, .. } = Rigid::new(plate, pad);
+    let mut force = Scale(stiffness) * mean;
     let Some(arm) = pad.arm else {
         return force;
     };
-    let stiffness = stiffness * area_share(plate, pad);
+    let stiffness = stiffness * share;
     match plate.head_of(guide.index) {
         Some(head) => force[head] -= stiffness / arm.mass_kg.sqrt(),
         None => force *= Scale(arm.stiffness_n_per_m / (stiffness + arm.stiffness_n_per_m)),
@@ -114,24 +181,9 @@ pub(crate) fn pad_force(plate: &Plate, guide: &Guide) -> Col<f64> {
     force
 }
 
-/// Share of the pad that is on the blade.
-fn area_share(plate: &Plate, pad: &GuideFile) -> f64 {
-    let of_circle = |circle: &Circle| {
-        let angle = |arcs: &Vec<[f64; 2]>| arcs.iter().map(|[low, high]| 2.0 * (high - low)).sum();
-        circle.weight * circle.arcs.as_ref().map_or(1.0, angle)
-    };
-    let circles = circles(plate, pad, sufficient_points(plate));
-    circles.iter().map(of_circle).sum()
-}
-
 fn coupling_over(plate: &Plate, pad: &GuideFile) -> Mat<f64> {
     let circles = circles(plate, pad, sufficient_points(plate));
     coupling(plate, pad.angle_rad(), circles.into_iter())
-}
-
-fn mean_over(plate: &Plate, pad: &GuideFile) -> Col<f64> {
-    let circles = circles(plate, pad, sufficient_points(plate));
-    mean(plate, pad.angle_rad(), circles.into_iter())
 }
 
 /// Circles of a radial quadrature rule with `points` points on each smooth interval, with the arcs of the pad.

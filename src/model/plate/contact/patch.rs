@@ -19,6 +19,19 @@ pub struct Circle {
     pub arcs: Option<Vec<[f64; 2]>>,
 }
 
+impl Circle {
+    /// Weight times ∫ cos nψ dψ, ∫ x cos nψ dψ and ∫ y sin nψ dψ over the arcs, with x = r cos ψ and y = r sin ψ.
+    pub fn moments(&self, n: usize) -> [f64; 3] {
+        let (weight, r) = (self.weight, self.radius_m);
+        let Some(arcs) = &self.arcs else {
+            return [weight, weight * r, 0.0];
+        };
+        let [below, own, above] =
+            [n.abs_diff(1), n, n + 1].map(|k| weight * cosine_integral(arcs, k));
+        [own, 0.5 * r * (below + above), 0.5 * r * (below - above)]
+    }
+}
+
 /// Mean of φᵢφⱼ over a patch as one J × J matrix for each k = |n ± m|: Q_k = Σ weight R_j R_l ∫ cos kψ dψ, where ψ
 /// is the angle from the centre line.
 struct PatchHarmonics {
@@ -66,28 +79,40 @@ pub fn coupling(
     coupling
 }
 
-/// Mean of φᵢ over a patch whose centre line is at an angle: Σ weight ∫ φᵢ dψ over its circles, in 1/√kg.
-pub fn mean(plate: &Plate, angle_rad: f64, circles: impl Iterator<Item = Circle>) -> Col<f64> {
+/// Means over a patch whose centre line is at an angle, Σ weight ∫ … dψ over its circles: of φᵢ, in 1/√kg, and of xφᵢ and yφᵢ, in
+/// m/√kg, with x along the centre line from the axis of the blade and y across it. Of a point those of xφᵢ and yφᵢ are zero.
+pub fn means<'a>(
+    plate: &Plate,
+    angle_rad: f64,
+    circles: impl Iterator<Item = &'a Circle>,
+) -> [Col<f64>; 3] {
     let size = plate.basis.count();
-    let mut mean = Col::zeros(plate.degrees_of_freedom());
+    let mut means = [(); 3].map(|()| Col::zeros(plate.degrees_of_freedom()));
     for circle in circles {
         // The radial functions of one nodal diameter differ from those of all others.
         let functions = [0, 1].map(|n| plate.basis.evaluate(n, circle.radius_m).value);
         for n in 0..=plate.max_diameters() {
-            let arcs = circle.arcs.as_ref();
-            let angular = arcs.map_or(1.0, |arcs| cosine_integral(arcs, n));
-            let weight = circle.weight * angular / plate.angular_norm(n);
             let (sin, cos) = (n as f64 * angle_rad).sin_cos();
-            for (j, value) in functions[usize::from(n == 1)].iter().enumerate() {
-                let cosine = plate.offset(n) + j;
-                mean[cosine] += weight * value * cos;
-                if n > 0 {
-                    mean[cosine + size] += weight * value * sin;
+            let [one, along, across] = circle.moments(n);
+            // The parts of cos n(α + ψ) and sin n(α + ψ) that are even in ψ, and those that are odd.
+            let factors = [
+                (one, [cos, sin]),
+                (along, [cos, sin]),
+                (across, [-sin, cos]),
+            ];
+            for (mean, (moment, [of_cosine, of_sine])) in means.iter_mut().zip(factors) {
+                let weight = moment / plate.angular_norm(n);
+                for (j, value) in functions[usize::from(n == 1)].iter().enumerate() {
+                    let cosine = plate.offset(n) + j;
+                    mean[cosine] += weight * value * of_cosine;
+                    if n > 0 {
+                        mean[cosine + size] += weight * value * of_sine;
+                    }
                 }
             }
         }
     }
-    mean
+    means
 }
 
 /// Number of points of a radial rule that integrates the product of two radial functions and of the integral over

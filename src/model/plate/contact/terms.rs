@@ -8,10 +8,6 @@ pub struct ContactTerms {
     stiffness: Option<Mat<f64>>,
     damping: Option<Mat<f64>>,
     nonconservative: Option<Mat<f64>>,
-    /// The part of the stiffness by which internal states of pads act on the blade. At rest its force is zero.
-    following: Option<Mat<f64>>,
-    /// Unknowns of these states.
-    states: Vec<usize>,
 }
 
 impl ContactTerms {
@@ -29,19 +25,6 @@ impl ContactTerms {
     /// Adds a term to K_g that is exactly symmetric.
     pub fn add_symmetric_stiffness(&mut self, term: Mat<f64>) {
         add(&mut self.stiffness, term);
-    }
-
-    /// Adds the stiffness and the damping by which an internal state of a pad acts on the blade; `unknown` is that of the state.
-    pub(in crate::model::plate) fn add_state(
-        &mut self,
-        unknown: usize,
-        stiffness: Mat<f64>,
-        damping: &Mat<f64>,
-    ) {
-        self.states.push(unknown);
-        self.add_damping(damping);
-        self.add_symmetric_stiffness(stiffness.clone());
-        add(&mut self.following, stiffness);
     }
 
     /// Adds to the damping C, in 1/s, symmetric.
@@ -71,18 +54,10 @@ impl ContactTerms {
         self.nonconservative.as_ref()
     }
 
-    /// The terms that have a potential. The internal states of pads, whose force is zero at rest, then have a stiffness and act on
-    /// nothing.
+    /// The terms that have a potential.
     pub fn conservative(&self) -> Self {
-        let mut stiffness = self.stiffness.clone();
-        if let Some((stiffness, following)) = stiffness.as_mut().zip(self.following.as_ref()) {
-            *stiffness -= following;
-            for state in &self.states {
-                stiffness[(*state, *state)] += following[(*state, *state)];
-            }
-        }
         ContactTerms {
-            stiffness,
+            stiffness: self.stiffness.clone(),
             ..ContactTerms::default()
         }
     }
