@@ -882,7 +882,8 @@ class CampbellReport(Entry):
     terms : Terms of the equation of motion that were assembled.
     modes_at_rest : Lowest oscillating modes of the blade at rest, ascending.
     overdamped_modes_at_rest : Number of modes at rest that decay without oscillating
-        (overdamped), at rates up to 2π `campbell.complete_to_hz`; they are not listed.
+        (overdamped), at rates up to 2π times the height of a diagram that begins at rest; they
+        are not listed.
     critical_speeds : Every critical speed up to the end of the sweep, ascending.
     critical_speeds_without_damping : Whether `critical_speeds` are those of the saw without its
         damping: with damping that turns with the blade no eigenvalue of the damped saw is zero
@@ -2453,7 +2454,8 @@ class ReportCampbellReport(Entry):
     terms : Terms of the equation of motion that were assembled.
     modes_at_rest : Lowest oscillating modes of the blade at rest, ascending.
     overdamped_modes_at_rest : Number of modes at rest that decay without oscillating
-        (overdamped), at rates up to 2π `campbell.complete_to_hz`; they are not listed.
+        (overdamped), at rates up to 2π times the height of a diagram that begins at rest; they
+        are not listed.
     critical_speeds : Every critical speed up to the end of the sweep, ascending.
     critical_speeds_without_damping : Whether `critical_speeds` are those of the saw without its
         damping: with damping that turns with the blade no eigenvalue of the damped saw is zero

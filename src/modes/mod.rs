@@ -89,6 +89,7 @@ pub use mode::{Mode, ModeKind};
 pub(crate) use mode::{classify, krein_index};
 pub use mode_name::{Direction, ModeName};
 pub(crate) use mode_name::{HarmonicShare, in_words};
+pub(crate) use model::SPLITTING;
 pub use model::{DescribedMode, NamedMode, SpectralModel};
 pub(crate) use nearest_pairs::nearest_pairs;
 pub(crate) use progress::Work;

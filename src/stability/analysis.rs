@@ -2,6 +2,7 @@
 
 use faer::c64;
 
+use super::at_rest::ModesAtRest;
 use super::band::Instability;
 use super::basis::{ChosenBasis, FALL};
 use super::basis_limit::OutOfReach;
@@ -195,13 +196,10 @@ impl Analysis {
         let model = SpectralModel::with_critical(saw, critical, range, Strategy::Reduced)?;
         let depth = Depth::of(scene.accuracy());
         let (mut chart, between) = charted(&model, range, depth, options)?;
-        let (overdamped, modes_at_rest): (Vec<_>, Vec<_>) = model
-            .describe(0.0, model.modes(0.0)?)
-            .into_iter()
-            .partition(|mode| mode.mode.is_overdamped());
+        let at_rest = ModesAtRest::new(&model, range)?;
         let is_refined = scene.accuracy() == Accuracy::Reference && detail == Detail::Full;
         let mut listed = is_refined
-            .then(|| Listed::new(&model, &modes_at_rest))
+            .then(|| Listed::new(&model, &at_rest.oscillating))
             .transpose()?;
         if let Some(listed) = &mut listed {
             listed.refine_peaks(&model, &mut chart.instabilities)?;
@@ -237,8 +235,8 @@ impl Analysis {
             flutter_speed_rad_per_s: flutter_speed,
             first_merge_rad_per_s: first_merge,
             root_loci,
-            modes_at_rest,
-            overdamped_at_rest: overdamped.len(),
+            modes_at_rest: at_rest.oscillating,
+            overdamped_at_rest: at_rest.overdamped,
             fastest_operating: None,
             listed_backward_error: None,
             heat,

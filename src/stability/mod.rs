@@ -7,6 +7,7 @@
 //! whether the saw is stable at a speed.
 
 mod analysis;
+mod at_rest;
 mod band;
 mod basis;
 mod basis_limit;

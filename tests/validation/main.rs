@@ -10,6 +10,7 @@
 mod common;
 
 mod annulus;
+mod at_rest;
 mod collar_saw;
 mod damping;
 mod edge_load;

@@ -34,8 +34,8 @@ pub struct Report {
     pub terms: Vec<String>,
     /// Lowest oscillating modes of the blade at rest, ascending.
     pub modes_at_rest: Vec<RestMode>,
-    /// Number of modes at rest that decay without oscillating (overdamped), at rates up to 2π
-    /// `campbell.complete_to_hz`; they are not listed.
+    /// Number of modes at rest that decay without oscillating (overdamped), at rates up to 2π times the height of
+    /// a diagram that begins at rest; they are not listed.
     #[serde(default)]
     pub overdamped_modes_at_rest: usize,
     /// Every critical speed up to the end of the sweep, ascending.

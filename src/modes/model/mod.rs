@@ -78,7 +78,7 @@ pub struct SpectralModel {
 /// At rest the two waves of equal n are degenerate. A rotation by this share of the blade's frequency scale
 /// separates them into forward and backward waves, as at any other speed, and changes frequencies by no more
 /// than itself.
-pub(super) const SPLITTING: f64 = 1e-9;
+pub(crate) const SPLITTING: f64 = 1e-9;
 
 impl SpectralModel {
     /// Prepares the modes for a range of speeds, (from, to) in rad/s, and for the search for bands within that

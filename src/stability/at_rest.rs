@@ -1,0 +1,45 @@
+//! Modes of a saw at rest, whatever speeds its sweep has.
+
+use crate::model::scene::SpeedRange;
+use crate::modes::{
+    DescribedMode, SPLITTING, SpectralModel, SpectrumError, Strategy, frequency_scale,
+};
+
+/// Modes at rest up to the height of a diagram that begins there.
+pub struct ModesAtRest {
+    /// Oscillating modes, ascending.
+    pub oscillating: Vec<DescribedMode>,
+    /// Number of the others, which decay without oscillating.
+    pub overdamped: usize,
+}
+
+impl ModesAtRest {
+    /// The modes at rest of the saw of a model for a range of speeds. A range without rest has neither its modes nor its height, so that
+    /// they are computed anew.
+    ///
+    /// # Errors
+    /// [`SpectrumError`] when an eigenproblem fails.
+    pub fn new(model: &SpectralModel, range: SpeedRange) -> Result<Self, SpectrumError> {
+        if range.from_rad_per_s == 0.0 {
+            return Self::of(model);
+        }
+        let rest = SpeedRange::new(0.0, SPLITTING * frequency_scale(&model.plate));
+        let (plate, critical) = (model.plate.clone(), model.critical.clone());
+        Self::of(&SpectralModel::with_critical(
+            plate,
+            critical,
+            rest,
+            Strategy::Reduced,
+        )?)
+    }
+
+    fn of(model: &SpectralModel) -> Result<Self, SpectrumError> {
+        let modes = model.describe(0.0, model.modes(0.0)?).into_iter();
+        let (overdamped, oscillating): (Vec<_>, Vec<_>) =
+            modes.partition(|mode| mode.mode.is_overdamped());
+        Ok(ModesAtRest {
+            oscillating,
+            overdamped: overdamped.len(),
+        })
+    }
+}
