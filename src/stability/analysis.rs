@@ -28,7 +28,6 @@ use crate::model::plate::{Resolution, StraightEdgeReading};
 use crate::model::scene::{Accuracy, Scene, SceneError, SpeedRange, rad_per_s, rpm};
 use crate::modes::branches::CampbellError;
 use crate::modes::{DescribedMode, SpectralModel, SpectrumError, Strategy};
-use crate::page::text::rounded_down;
 
 /// Largest share of the first critical speed at which saw makers run a saw.
 pub const OPERATING_LIMIT: f64 = 0.85;
@@ -160,7 +159,7 @@ impl Analysis {
             Err(AnalysisError::Campbell(CampbellError::TooLarge {
                 largest_end_rpm: Some(end),
                 ..
-            })) if scene.sweep().is_none() => rad_per_s(rounded_down(2, end)),
+            })) if scene.sweep().is_none() => rad_per_s(end),
             analysed => return analysed,
         };
         let shorter = scene.swept(SpeedRange::new(0.0, end_rad_per_s))?;

@@ -13,7 +13,7 @@ use crate::modes::{
     ABOVE_LAST, Assembled, NamedCriticalSpeed, RestingMode, SpectrumError, StandingWaves,
     diameters_within, highest_reflected,
 };
-use crate::page::text::rounded_down;
+use crate::page::text::rounded_between;
 
 /// Strain of the rim above which a sweep is refused: ten times the yield strain of the strongest steel.
 const LARGEST_STRETCH: f64 = 0.1;
@@ -235,7 +235,7 @@ fn check_stretch(blade: &Blade, to_rad_per_s: f64) -> Result<(), AnalysisError> 
 pub(super) fn chosen_end(scene: &Scene, critical_rad_per_s: &[f64]) -> f64 {
     let usual = usual_end(scene, critical_rad_per_s.first().copied());
     match critical_rad_per_s.get(CHARTED - 1..=CHARTED) {
-        Some(&[last, next]) if next < usual => rad_per_s(round_between(rpm(last), rpm(next))),
+        Some(&[last, next]) if next < usual => rad_per_s(rounded_between(rpm(last), rpm(next))),
         _ => usual,
     }
 }
@@ -258,13 +258,6 @@ pub(crate) fn usual_end(scene: &Scene, lowest_critical_rad_per_s: Option<f64>) -
         _ => 2.0 * lowest,
     };
     rad_per_s(rounded_up(top)).min(fastest_rad_per_s(scene.blade()))
-}
-
-/// The number of fewest digits between two numbers, at most nine.
-fn round_between(low: f64, high: f64) -> f64 {
-    let rounded = (2..=9).map(|digits| rounded_down(digits, high));
-    let mut between = rounded.filter(|rounded| *rounded > low && *rounded < high);
-    between.next().unwrap_or(low)
 }
 
 /// A number rounded up to two digits.

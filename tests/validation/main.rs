@@ -11,6 +11,7 @@ mod common;
 
 mod annulus;
 mod at_rest;
+mod chosen_sweep;
 mod collar_saw;
 mod damping;
 mod edge_load;

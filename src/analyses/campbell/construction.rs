@@ -45,6 +45,9 @@ impl Analysis {
             self.listed_backward_error,
         );
         let branches = Numbered::new(analysis);
+        let critical = critical_speeds(analysis, &branches);
+        let at_rest = &analysis.modes_at_rest;
+        let warnings = warnings(scene, analysis, &certificate, at_rest, critical.len());
         let resolution = model.plate.resolution;
         Report {
             sawflutter: env!("CARGO_PKG_VERSION").to_owned(),
@@ -54,7 +57,7 @@ impl Analysis {
             terms: terms(scene, &model.plate),
             modes_at_rest: rest_modes(analysis, &branches),
             overdamped_modes_at_rest: analysis.overdamped_at_rest,
-            critical_speeds: critical_speeds(analysis, &branches),
+            critical_speeds: critical,
             critical_speeds_without_damping: model.has_turning_damping(),
             instabilities: instabilities(analysis, &branches, scene.flutter_threshold_per_s()),
             flutter_speed_rpm: analysis.flutter_speed_rad_per_s.map(rpm),
@@ -80,7 +83,7 @@ impl Analysis {
                 estimated_drawn_error: analysis.estimates.as_ref().map(|e| e.drawn),
             },
             work: work(&model.counters),
-            warnings: warnings(scene, analysis, &certificate, &analysis.modes_at_rest),
+            warnings,
             certificate,
             campbell: CampbellDiagram {
                 from_rpm: rpm(analysis.range_rad_per_s.from_rad_per_s),

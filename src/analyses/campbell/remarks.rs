@@ -109,6 +109,7 @@ pub fn warnings(
     analysis: &Analysis,
     certificate: &BandCertificate,
     at_rest: &[DescribedMode],
+    listed_critical: usize,
 ) -> Vec<String> {
     let found = [
         out_of_reach(scene, analysis),
@@ -120,7 +121,7 @@ pub fn warnings(
         unsettled(analysis),
         contradicted(certificate),
         left_free(analysis),
-        ended_early(scene, analysis),
+        ended_early(scene, analysis, listed_critical),
         lifting_off(scene),
         sagging(analysis),
         rolled_alone(scene),
@@ -179,14 +180,25 @@ fn out_of_reach(scene: &Scene, analysis: &Analysis) -> Option<String> {
     ))
 }
 
-/// Warning that the sweep chosen by the program ends at a lower speed than usual.
-fn ended_early(scene: &Scene, analysis: &Analysis) -> Option<String> {
+/// Warning that the sweep chosen by the program ends at a lower speed than usual, or below the first critical speed.
+fn ended_early(scene: &Scene, analysis: &Analysis, listed_critical: usize) -> Option<String> {
     let critical = analysis.critical_rad_per_s();
     let usual = usual_end(scene, critical.first().copied());
     let end = analysis.range_rad_per_s.to_rad_per_s;
+    let first = critical.first().filter(|first| **first > end);
+    if let Some(first) = first.filter(|_| scene.sweep().is_none()) {
+        return Some(format!(
+            "the sweep ends at {} rpm, below the first critical speed, {} rpm: from there on rotation stretches the rim by more than a tenth",
+            shown_to(5, rpm(end)),
+            shown_to(6, rpm(*first))
+        ));
+    }
     let is_early = scene.sweep().is_none() && end < 0.99 * usual;
-    let reason = if is_cut_short(scene, &critical) {
-        format!("{CHARTED} critical speeds are below its end; name sweep.to_rpm for a longer one")
+    let passed = critical.partition_point(|critical| *critical <= end);
+    let reason = if is_cut_short(scene, &critical) && passed >= CHARTED {
+        format!(
+            "{listed_critical} critical speeds are below its end; name sweep.to_rpm for a longer one"
+        )
     } else {
         "the modes of so many speeds would not fit into the memory allowed; a coarser accuracy permits a longer sweep".to_owned()
     };

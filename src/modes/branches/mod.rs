@@ -14,8 +14,9 @@ use rayon::prelude::*;
 use crate::model::plate::Plate;
 use crate::model::scene::rpm;
 use crate::modes::{
-    HarmonicShare, NamedCriticalSpeed, NamedMode, SpectralModel, SpectrumError, Work,
+    HarmonicShare, NamedCriticalSpeed, NamedMode, SpectralModel, SpectrumError, Work, smallest,
 };
+use crate::page::text::{MOST_DIGITS, rounded_between, shown_to};
 
 use links::links;
 use names::named;
@@ -51,7 +52,10 @@ pub enum CampbellError {
 }
 
 fn end_in_words(largest_end_rpm: Option<f64>) -> String {
-    let in_words = |end: f64| format!("end the sweep at {end:.0} rpm or earlier, or ");
+    let in_words = |end: f64| {
+        let end = shown_to(MOST_DIGITS, end);
+        format!("end the sweep at {end} rpm or earlier, or ")
+    };
     largest_end_rpm.map_or_else(String::new, in_words)
 }
 
@@ -106,7 +110,8 @@ pub(crate) fn check_memory(
         allowed_mb: MEMORY_BUDGET_MB,
         modes,
         speeds: speeds.len(),
-        largest_end_rpm: largest_end(&critical, speeds, most).map(rpm),
+        largest_end_rpm: largest_end(&critical, speeds, most)
+            .map(|[low, high]| rounded_between(rpm(low), rpm(high))),
     })
 }
 
@@ -122,10 +127,10 @@ pub(crate) fn check_room(model: &SpectralModel, speeds: &[f64]) -> Result<(), Ca
     check_memory(&model.plate, &model.critical, modes, speeds)
 }
 
-/// Highest critical speed at which a sweep may end so that its chart has at most `most` speeds. An earlier end
+/// The last two critical speeds between which a sweep may end so that its chart has at most `most` speeds. An earlier end
 /// omits the speeds beside later critical speeds but keeps the number of even ones. The chart then also has
 /// fewer modes, which this estimate does not use.
-fn largest_end(critical: &[f64], speeds: &[f64], most: usize) -> Option<f64> {
+fn largest_end(critical: &[f64], speeds: &[f64], most: usize) -> Option<[f64; 2]> {
     let last = *speeds.last()?;
     let first = *critical.first()?;
     // The speeds below the first critical speed, and not beside it, are all evenly spaced.
@@ -136,7 +141,9 @@ fn largest_end(critical: &[f64], speeds: &[f64], most: usize) -> Option<f64> {
         even + up_to - even * end / last
     };
     let fits = |end: &&f64| **end < last && charted(**end) <= most as f64;
-    critical.iter().rfind(fits).copied()
+    let end = *critical.iter().rfind(fits)?;
+    let before = critical.iter().rfind(|before| **before < end)?;
+    Some([*before, end])
 }
 
 /// Largest relative distance of a charted speed from the critical speed that it belongs to.
@@ -186,6 +193,14 @@ impl Campbell {
         Ok(Campbell {
             samples: named(model, samples, &branches)?,
             branches,
+        })
+    }
+
+    /// Index of the sample nearest to a speed whose modes were computed.
+    pub(crate) fn solved_near(&self, speed_rad_per_s: f64) -> Option<usize> {
+        let solved = (0..self.samples.len()).filter(|at| self.samples[*at].is_solved());
+        smallest(solved, |at| {
+            (self.samples[*at].speed_rad_per_s - speed_rad_per_s).abs()
         })
     }
 
@@ -276,8 +291,11 @@ mod tests {
         let beside = critical.iter().flat_map(|c| [c * 0.9999, c * 1.0001]);
         let mut speeds: Vec<f64> = even.chain(beside).collect();
         speeds.sort_by(f64::total_cmp);
-        let end = largest_end(&critical, &speeds, 90).unwrap();
-        assert!((18..=22).map(|k| critical[k]).any(|c| c == end), "{end}");
+        let [before, end] = largest_end(&critical, &speeds, 90).unwrap();
+        let mut pairs = (18..=22).map(|k| [critical[k - 1], critical[k]]);
+        assert!(pairs.any(|pair| pair == [before, end]), "{end}");
+        // No sweep ends below its first critical speed.
+        assert_eq!(largest_end(&critical, &speeds, 51), None);
         assert_eq!(largest_end(&critical, &speeds, 40), None);
         assert_eq!(largest_end(&[], &speeds, 40), None);
     }

@@ -43,9 +43,26 @@ pub fn rounded_down(digits: i32, value: f64) -> f64 {
     (value / unit).floor() * unit
 }
 
+/// Largest number of digits of [`rounded_between`].
+pub const MOST_DIGITS: usize = 9;
+
+/// The number of fewest digits, at least two, between two positive numbers; the lower of both if they are too close.
+pub fn rounded_between(low: f64, high: f64) -> f64 {
+    let rounded = (2..=MOST_DIGITS as i32).map(|digits| rounded_down(digits, high));
+    let mut between = rounded.filter(|rounded| *rounded > low && *rounded < high);
+    between.next().unwrap_or(low)
+}
+
 #[cfg(test)]
 mod tests {
-    use super::{fixed, shown};
+    use super::{fixed, rounded_between, shown};
+
+    #[test]
+    fn a_number_between_two_others_has_few_digits() {
+        let found = [(41145.3, 43300.0), (41145.3, 41167.2), (2.0, 2.0)];
+        let found = found.map(|(low, high)| rounded_between(low, high));
+        assert_eq!(found, [43000.0, 41160.0, 2.0]);
+    }
 
     #[test]
     fn a_zero_has_no_sign() {
