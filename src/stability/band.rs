@@ -75,7 +75,20 @@ impl CurvePoint {
     }
 }
 
+/// Distance of a peak at the end of an undamped band from that end, as a share of the width: at the end itself two real λ have one
+/// eigenvector.
+pub(super) const BESIDE_END: f64 = 1e-3;
+
 impl Instability {
+    /// Whether flutter of an undamped blade grows most beside an end at which its two λ become real.
+    pub(super) fn peaks_beside_real(&self) -> bool {
+        let range = self.range();
+        let off = range.ends().map(|end| (self.peak_rad_per_s - end).abs());
+        let nearest = off[0].min(off[1]);
+        let is_beside = nearest > 0.0 && nearest < 2.0 * BESIDE_END * range.width();
+        self.kind == InstabilityKind::Flutter && is_beside
+    }
+
     /// Speeds of the band.
     pub fn range(&self) -> SpeedRange {
         SpeedRange::new(self.from_rad_per_s, self.to_rad_per_s)

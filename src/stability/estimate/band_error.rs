@@ -2,6 +2,7 @@
 
 use crate::stability::band::Instability;
 use crate::stability::basis::REMAINDER;
+use crate::stability::instability_kind::InstabilityKind;
 
 /// Factor for the estimated errors of growth rates, which converge less evenly than speeds: on twelve random
 /// saws the true error was up to 2.9 times the estimate without the factor.
@@ -28,7 +29,8 @@ impl BandError {
     pub fn of(self, band: &Instability, critical: f64) -> Self {
         // The width is taken relative to the end, because a band may begin at rest.
         let width = band.range().width() / band.to_rad_per_s;
-        let of_width = if band.frequency_rad_per_s == 0.0 {
+        let is_real = band.kind == InstabilityKind::Divergence || band.peaks_beside_real();
+        let of_width = if is_real {
             WIDTH_REMAINDER * critical / width
         } else {
             0.0

@@ -139,7 +139,7 @@ impl Estimates {
         };
         match (band.kind, model.is_conservative()) {
             (InstabilityKind::Divergence, true) => self.standing(model, band, growing),
-            (InstabilityKind::Flutter, true) if band.frequency_rad_per_s == 0.0 => {
+            (InstabilityKind::Flutter, true) if band.peaks_beside_real() => {
                 Ok(self.splitting(model, band, modes))
             }
             (InstabilityKind::Flutter, true) => self.merging(model, band, modes),
@@ -203,7 +203,9 @@ impl Estimates {
         let real = c64::new(band.peak_growth_per_s, 0.0);
         let before = end.and_then(|end| DoubleEigenvalue::next_to(&found, end, real));
         let is_same = |before: &DoubleEigenvalue| {
-            (before.lambda.re / band.peak_growth_per_s - 1.0).abs() < SAME_GROWTH
+            let at_peak = band.peak_rad_per_s - before.speed_rad_per_s;
+            let growth = before.lambda.re + before.mean_slope.re * at_peak;
+            (growth / band.peak_growth_per_s - 1.0).abs() < SAME_GROWTH
         };
         let changed = before.filter(is_same).and_then(|before| {
             let after = DoubleEigenvalue::next_to(&larger, before.speed_rad_per_s, before.lambda)?;

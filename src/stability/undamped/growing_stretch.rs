@@ -4,7 +4,7 @@ use faer::c64;
 
 use crate::model::scene::SpeedRange;
 use crate::modes::{SpectrumError, smallest};
-use crate::stability::band::{CurvePoint, Instability};
+use crate::stability::band::{BESIDE_END, CurvePoint, Instability};
 use crate::stability::growth_curve::{GrowthCurve, Numbers, between};
 use crate::stability::instability_kind::InstabilityKind;
 use crate::stability::sample::Plane;
@@ -56,9 +56,6 @@ pub struct GrowingStretch {
     pub points: Vec<CurvePoint>,
 }
 
-/// Distance of a peak at the end of a band from that end, as a share of the width.
-const BESIDE_END: f64 = 1e-3;
-
 impl GrowingStretch {
     /// The band of the interval, and its part within a range.
     ///
@@ -80,9 +77,9 @@ impl GrowingStretch {
         let mut peak = curve.peak([0, curve.points.len() - 1]);
         let [from, to] = range.ends();
         for (edge, other) in [(begin, to), (end, from)] {
-            // Two real λ grow where they coalesce, but have one eigenvector there.
             if matches!(edge, End::Coalescence(_)) && edge.speed() == peak.speed_rad_per_s {
-                peak.speed_rad_per_s += BESIDE_END * (other - edge.speed());
+                let speed = edge.speed() + BESIDE_END * (other - edge.speed());
+                peak = continued(numbers, &curve.points, speed)?;
             }
         }
         let lambda = peak.number.sqrt();
