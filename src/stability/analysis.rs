@@ -14,7 +14,6 @@ use super::estimate::Estimates;
 use super::excitation::{Crossing, crossings};
 use super::expected_work::ExpectedWork;
 use super::heat::HeatLimits;
-use super::instability_kind::InstabilityKind;
 use super::ladder::next_smaller;
 use super::listed_pair::Listed;
 use super::onsets::Onsets;
@@ -51,27 +50,6 @@ fn charted<'a>(
         (true, _) => drawn(model, range, FREE_CHART_SPEEDS, depth, full),
         (false, Detail::Full) => drawn(model, range, CHART_SPEEDS, depth, full),
         (false, Detail::Sketch) => drawn(model, range, SKETCH_SPEEDS, Depth::Counts, options),
-    }
-}
-
-/// Root loci of the flutter band that begins at a speed; `None` with damping, where no pair coalesces.
-fn root_loci(
-    between: &Between<'_>,
-    chart: &StabilityChart,
-    onset_rad_per_s: f64,
-    range_rad_per_s: SpeedRange,
-) -> Result<Option<RootLoci>, AnalysisError> {
-    let begins = |band: &&Instability| {
-        band.kind == InstabilityKind::Flutter && band.from_rad_per_s == onset_rad_per_s
-    };
-    match chart.instabilities.iter().find(begins) {
-        Some(band) if between.model.is_conservative() => Ok(RootLoci::new(
-            between,
-            &chart.campbell,
-            band,
-            range_rad_per_s,
-        )?),
-        _ => Ok(None),
     }
 }
 
@@ -207,13 +185,14 @@ impl Analysis {
             Estimates::new(&model, range, &chart, basis_error, estimated_resting_error)?;
         let threshold = scene.flutter_threshold_per_s();
         let [flutter_speed, first_merge] = flutter_onsets(&chart.instabilities, threshold);
-        let drawn_onset = flutter_speed
-            .or(first_merge)
-            .filter(|_| detail == Detail::Full);
-        let root_loci = match drawn_onset {
-            Some(onset) => root_loci(&between, &chart, onset, range)?,
+        // With damping no pair coalesces.
+        let has_loci = detail == Detail::Full && model.is_conservative();
+        let root_loci = match flutter_speed.or(first_merge).filter(|_| has_loci) {
+            Some(onset) => RootLoci::new(&between, &chart, onset.band, range)?,
             None => None,
         };
+        let [flutter_speed, first_merge] =
+            [flutter_speed, first_merge].map(|onset| onset.map(|onset| onset.speed_rad_per_s));
         drop(between);
         let heat = HeatLimits::new(scene, &model)?;
         let crossings = crossings(&model, &chart, scene.excitation())?;

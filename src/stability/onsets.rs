@@ -84,7 +84,8 @@ impl Onsets {
             search_bands(saw, critical, range)?
         };
         let threshold = scene.flutter_threshold_per_s();
-        let [flutter_speed, first_merge] = flutter_onsets(&found.instabilities, threshold);
+        let [flutter_speed, first_merge] = flutter_onsets(&found.instabilities, threshold)
+            .map(|onset| onset.map(|onset| onset.speed_rad_per_s));
         Ok(Onsets {
             lowest_critical_rad_per_s: lowest_critical,
             critical_rad_per_s,

@@ -10,6 +10,7 @@
 //! speed, and a constant side force deflects the wave without bound. A window without instability therefore
 //! ends before a critical speed.
 
+use faer::c64;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -167,14 +168,35 @@ impl Evidence<'_> {
     }
 }
 
-/// Lowest speed of flutter that counts, and lowest speed of any flutter; both in rad/s.
-pub fn flutter_onsets(bands: &[Instability], threshold_per_s: f64) -> [Option<f64>; 2] {
-    let flutter = bands.iter().filter(|b| b.kind == InstabilityKind::Flutter);
-    let counted = flutter.clone().flat_map(|b| b.counted(threshold_per_s));
-    let first = |speeds: &mut dyn Iterator<Item = f64>| speeds.reduce(f64::min);
+/// The speed at which flutter begins.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct FlutterOnset {
+    /// Index of its band.
+    pub band: usize,
+    /// The speed.
+    pub speed_rad_per_s: f64,
+}
+
+/// Lowest speed of flutter that counts, and lowest speed of any flutter.
+pub fn flutter_onsets(bands: &[Instability], threshold_per_s: f64) -> [Option<FlutterOnset>; 2] {
+    let first = |begin: &dyn Fn(&Instability) -> Option<f64>| {
+        let flutter = bands.iter().enumerate();
+        let flutter = flutter.filter(|(_, band)| band.kind == InstabilityKind::Flutter);
+        let onsets = flutter.filter_map(|(band, own)| {
+            begin(own).map(|speed_rad_per_s| FlutterOnset {
+                band,
+                speed_rad_per_s,
+            })
+        });
+        smallest(onsets, |onset| onset.speed_rad_per_s)
+    };
+    let counted = |band: &Instability| {
+        let stretches = band.counted(threshold_per_s);
+        stretches.first().map(|range| range.from_rad_per_s)
+    };
     [
-        first(&mut counted.map(|range| range.from_rad_per_s)),
-        first(&mut flutter.map(|b| b.from_rad_per_s)),
+        first(&counted),
+        first(&|band: &Instability| Some(band.from_rad_per_s)),
     ]
 }
 
@@ -210,14 +232,20 @@ impl Instability {
 
     /// Re λ of a damped blade at a speed, in 1/s; `None` outside the band and for an undamped blade.
     pub fn growth_at(&self, speed_rad_per_s: f64) -> Option<f64> {
+        self.lambda_at(speed_rad_per_s).map(|lambda| lambda.re)
+    }
+
+    /// λ of a damped blade at a speed; `None` outside the band and for an undamped blade.
+    pub(super) fn lambda_at(&self, speed_rad_per_s: f64) -> Option<c64> {
         let after = |p: &CurvePoint| p.speed_rad_per_s < speed_rad_per_s;
         let place = self.curve.partition_point(after).max(1);
         let pair = self.curve.get(place - 1..=place)?;
         let inside = pair[0].speed_rad_per_s..=pair[1].speed_rad_per_s;
         let width = pair[1].speed_rad_per_s - pair[0].speed_rad_per_s;
         let share = (speed_rad_per_s - pair[0].speed_rad_per_s) / width;
-        let growth = || growth_between(pair, share);
-        inside.contains(&speed_rad_per_s).then(growth)
+        let [from, to] = [pair[0], pair[1]].map(|point| point.number.im);
+        let lambda = || c64::new(growth_between(pair, share), from + share * (to - from));
+        inside.contains(&speed_rad_per_s).then(lambda)
     }
 
     /// Growth rate at a speed, or that of the peak for an undamped blade, in 1/s.
@@ -255,8 +283,6 @@ fn crossing(pair: &[CurvePoint], value: f64) -> f64 {
 
 #[cfg(test)]
 mod tests {
-    use faer::c64;
-
     use super::*;
 
     fn band(kind: InstabilityKind, from: f64, to: f64, growth: f64) -> Instability {
@@ -296,6 +322,11 @@ mod tests {
         }
     }
 
+    fn onsets(bands: &[Instability], threshold_per_s: f64) -> [Option<(usize, f64)>; 2] {
+        let found = flutter_onsets(bands, threshold_per_s);
+        found.map(|onset| onset.map(|onset| (onset.band, onset.speed_rad_per_s)))
+    }
+
     #[test]
     fn a_damped_band_counts_where_its_growth_reaches_the_threshold() {
         let bands = [damped_hump()];
@@ -305,7 +336,7 @@ mod tests {
         assert_eq!(counted.len(), 1, "{counted:?}");
         let [from, to] = counted[0].ends();
         assert!((from - (140.0 - half)).abs() < 1e-9 && (to - (140.0 + half)).abs() < 1e-9);
-        assert_eq!(flutter_onsets(&bands, 0.25), [Some(from), Some(100.0)]);
+        assert_eq!(onsets(&bands, 0.25), [Some((0, from)), Some((0, 100.0))]);
         let found = evidence(&bands, &[]);
         let state = |speed| found.verdict(speed).state;
         assert_eq!(state(104.0), StabilityState::Stable);
@@ -315,7 +346,7 @@ mod tests {
         assert_eq!(window(104.0), Some(SpeedRange::new(0.0, from)));
         assert_eq!(window(179.0), Some(SpeedRange::new(to, 300.0)));
         assert_eq!(window(140.0), None);
-        assert_eq!(flutter_onsets(&bands, 1.5), [None, Some(100.0)]);
+        assert_eq!(onsets(&bands, 1.5), [None, Some((0, 100.0))]);
     }
 
     #[test]
@@ -334,7 +365,7 @@ mod tests {
             found.window_without_instability(155.0),
             Some(SpeedRange::new(120.0, 300.0))
         );
-        assert_eq!(flutter_onsets(&bands, 0.25), [Some(94.0), Some(94.0)]);
+        assert_eq!(onsets(&bands, 0.25), [Some((1, 94.0)), Some((1, 94.0))]);
     }
 
     /// There is no band at the critical speeds of a blade without guides, but windows end before them.

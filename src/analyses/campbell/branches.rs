@@ -8,7 +8,7 @@ use super::chart::BranchCurve;
 use crate::model::scene::rpm;
 use crate::modes::branches::{Branch, Campbell};
 use crate::modes::{
-    Direction, EventName, Mode, ModeKind, NamedCriticalSpeed, NamedMode, SpectralModel, smallest,
+    Direction, EventName, Mode, ModeKind, NamedCriticalSpeed, NamedMode, SpectralModel,
 };
 use crate::stability::{Analysis, Instability, InstabilityKind};
 
@@ -125,7 +125,7 @@ impl<'a> Numbered<'a> {
 
     /// The mode of a kind that is nearest to the mode of largest growth of a band, or to its mirror image.
     fn at_peak(&self, band: &Instability, kind: ModeKind) -> Option<(usize, usize)> {
-        let index = self.nearest_sample(band.peak_rad_per_s)?;
+        let index = self.campbell().solved_near(band.peak_rad_per_s)?;
         let modes = self.campbell().samples[index].modes.iter().enumerate();
         let grows = |m: &NamedMode| kind != ModeKind::Damped || m.mode.lambda.re > 0.0;
         let same = modes.filter(|(_, m)| m.mode.kind == kind && grows(m));
@@ -139,7 +139,7 @@ impl<'a> Numbered<'a> {
     }
 
     fn damped_partner(&self, band: &Instability) -> Option<(usize, usize)> {
-        let index = self.nearest_sample(band.peak_rad_per_s)?;
+        let index = self.campbell().solved_near(band.peak_rad_per_s)?;
         let growing = c64::new(band.peak_growth_per_s, band.frequency_rad_per_s);
         let partner = damped_partner(&self.campbell().samples[index].modes, growing)?;
         Some((index, partner))
@@ -186,15 +186,6 @@ impl<'a> Numbered<'a> {
         };
         let branch = branches.iter().position(is_through)?;
         Some(self.place[branch] + 1)
-    }
-
-    /// The computed sample nearest to a speed.
-    fn nearest_sample(&self, speed_rad_per_s: f64) -> Option<usize> {
-        let samples = &self.campbell().samples;
-        let solved = (0..samples.len()).filter(|at| samples[*at].is_solved());
-        smallest(solved, |at| {
-            (samples[*at].speed_rad_per_s - speed_rad_per_s).abs()
-        })
     }
 
     fn entry(&self, branch: &Branch, place: usize) -> BranchCurve {

@@ -100,14 +100,7 @@ impl Analysis {
 
 fn root_loci(analysis: &Analysis, branches: &Numbered<'_>) -> Option<RootLoci> {
     let loci = analysis.root_loci.as_ref()?;
-    let onset = analysis
-        .flutter_speed_rad_per_s
-        .or(analysis.first_merge_rad_per_s)?;
-    let band = analysis
-        .chart
-        .instabilities
-        .iter()
-        .find(|b| b.from_rad_per_s == onset)?;
+    let band = &analysis.chart.instabilities[loci.band];
     // The names are reversed, because an event lists reflected waves first, while the path of the reflected
     // mode is the second one.
     let waves = branches
@@ -124,7 +117,7 @@ fn root_loci(analysis: &Analysis, branches: &Numbered<'_>) -> Option<RootLoci> {
         krein_sign: path.iter().map(|(_, sign)| *sign).collect(),
     });
     Some(RootLoci {
-        onset_rpm: rpm(onset),
+        onset_rpm: rpm(band.from_rad_per_s),
         end_rpm: rpm(band.to_rad_per_s),
         rpm: loci.speeds.iter().map(|s| rpm(*s)).collect(),
         paths: paths.collect(),

@@ -17,7 +17,8 @@ impl Limits {
     /// Evaluates every limit on critical speeds and bands that were found with this accuracy.
     pub fn criteria(&self, found: &Evidence<'_>, accuracy: Accuracy) -> Vec<Criterion> {
         let lowest_critical = found.critical_rad_per_s.first().copied();
-        let [flutter_speed, _] = flutter_onsets(found.bands, found.threshold_per_s);
+        let [flutter, _] = flutter_onsets(found.bands, found.threshold_per_s);
+        let flutter_speed = flutter.map(|onset| onset.speed_rad_per_s);
         let mut criteria = vec![
             self.of_margin(lowest_critical),
             self.of_operation(found, accuracy),

@@ -85,6 +85,7 @@ impl Question {
         let (bands, certificate) = (found.instabilities, found.certificate);
         let threshold = scene.flutter_threshold_per_s();
         let [flutter, _] = flutter_onsets(&bands, threshold);
+        let flutter = flutter.map(|onset| onset.speed_rad_per_s);
         let evidence = Evidence {
             bands: &bands,
             edge_errors: Vec::new(),

@@ -65,7 +65,8 @@ impl Ahead {
             Item::Band(Band::new(&entry, range_rpm))
         };
         self.bands = Some(evidence.bands.iter().map(shaded).collect());
-        let onsets = flutter_onsets(evidence.bands, threshold).map(|onset| onset.map(rpm));
+        let onsets = flutter_onsets(evidence.bands, threshold)
+            .map(|onset| onset.map(|onset| rpm(onset.speed_rad_per_s)));
         let growths = evidence.bands.iter().map(|band| band.peak_growth_per_s);
         self.facts.extend(of_bands(onsets, growths));
         self.verdict = operating_rad_per_s

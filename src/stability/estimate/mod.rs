@@ -66,10 +66,8 @@ impl Estimates {
         let looks = LOOKS
             .map(|share| range.from_rad_per_s + share * range.width())
             .into_iter()
-            .filter_map(|speed| {
-                let solved = samples.iter().filter(|sample| sample.is_solved());
-                smallest(solved, |sample| (sample.speed_rad_per_s - speed).abs())
-            });
+            .filter_map(|speed| chart.campbell.solved_near(speed))
+            .map(|nearest| &samples[nearest]);
         let (mut drawn, mut backward_error) = (0.0_f64, 0.0_f64);
         for sample in looks {
             let speed = sample.speed_rad_per_s;
@@ -97,10 +95,9 @@ impl Estimates {
             .par_iter()
             .map(|band| {
                 Cancellation::current().check()?;
-                let at_peak = samples
-                    .iter()
-                    .find(|s| s.speed_rad_per_s == band.peak_rad_per_s);
-                let modes = at_peak.map_or_else(Vec::new, |sample| modes_of(model, band, sample));
+                let at_peak = chart.campbell.solved_near(band.peak_rad_per_s);
+                let modes =
+                    at_peak.map_or_else(Vec::new, |peak| modes_of(model, band, &samples[peak]));
                 let changes = estimates.band(model, band, &modes)?;
                 step.advance();
                 Ok((changes.of(band, least), largest_backward_error(&modes)))

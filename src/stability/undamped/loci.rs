@@ -4,14 +4,17 @@ use faer::c64;
 use rayon::prelude::*;
 
 use crate::model::scene::SpeedRange;
-use crate::modes::branches::{self, Branch, Campbell, CampbellError};
+use crate::modes::branches::{self, Branch, CampbellError};
 use crate::modes::{Mode, ModeKind, SpectralModel, smallest};
 use crate::stability::band::Instability;
 use crate::stability::between::Between;
+use crate::stability::search_result::StabilityChart;
 
 /// Paths of two eigenvalues over speed.
 #[derive(Debug, Clone, PartialEq)]
 pub struct RootLoci {
+    /// Index of the band.
+    pub band: usize,
     /// Speeds, ascending, in rad/s.
     pub speeds: Vec<f64>,
     /// λ and Krein sign at each speed, of the mode with sign +1 beside the band, and of that with sign −1. In
@@ -23,17 +26,18 @@ pub struct RootLoci {
 const SPEEDS: usize = 16;
 
 impl RootLoci {
-    /// The pair of a band from its peak to one width below and above the band, within a range, as far as a chart
+    /// The pair of the band with an index from its peak to one width below and above the band, within a range, as far as its chart
     /// shows it. `None` if it does not show the pair at the peak.
     ///
     /// # Errors
     /// [`CampbellError`] when an eigenproblem fails.
     pub fn new(
         between: &Between<'_>,
-        campbell: &Campbell,
-        band: &Instability,
+        chart: &StabilityChart,
+        index: usize,
         range: SpeedRange,
     ) -> Result<Option<Self>, CampbellError> {
+        let (campbell, band) = (&chart.campbell, &chart.instabilities[index]);
         let charted = campbell.samples.iter().map(|at| {
             let modes = at.modes.iter().map(|named| &named.mode);
             (at.speed_rad_per_s, modes.collect())
@@ -51,6 +55,7 @@ impl RootLoci {
         let points = pair(&all.collect::<Vec<_>>(), &branches, band);
         let points = points.map(|points| refined(between.model, points));
         Ok(points.map(|points| RootLoci {
+            band: index,
             speeds: points.iter().map(|point| point.speed_rad_per_s).collect(),
             paths: [0, 1].map(|k| points.iter().map(|point| point.pair[k]).collect()),
         }))
@@ -96,9 +101,9 @@ fn pair(
     branches: &[Branch],
     band: &Instability,
 ) -> Option<Vec<Point>> {
-    let peak = samples
-        .iter()
-        .position(|(speed, _)| *speed == band.peak_rad_per_s)?;
+    let peak = smallest(0..samples.len(), |at| {
+        (samples[*at].0 - band.peak_rad_per_s).abs()
+    })?;
     let growing = c64::new(band.peak_growth_per_s, band.frequency_rad_per_s);
     let branch = |kind: ModeKind, lambda: c64| {
         let modes = samples[peak].1.iter().enumerate();
@@ -192,9 +197,11 @@ mod tests {
         let (chart, between) =
             charted(&model, range, 5, Depth::Counts, AnalysisOptions::default()).unwrap();
         let flutter = |band: &&Instability| band.kind == InstabilityKind::Flutter;
-        let band = chart.instabilities.iter().rfind(flutter).unwrap();
+        let index = chart.instabilities.iter().rposition(|band| flutter(&band));
+        let index = index.unwrap();
+        let band = &chart.instabilities[index];
         assert!(!band.closed);
-        let loci = RootLoci::new(&between, &chart.campbell, band, range)
+        let loci = RootLoci::new(&between, &chart, index, range)
             .unwrap()
             .unwrap();
         assert_eq!(loci.speeds.last(), Some(&range.to_rad_per_s));
