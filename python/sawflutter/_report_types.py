@@ -854,8 +854,10 @@ class Sensitivity(Entry):
         percent; double ones of a free blade are listed twice.
     onsets_percent : Change of the onset of each reported band, in percent; null if the sweep
         begins inside the band.
-    growth_per_s : dλ/dp of each mode at the operating speed (at rest without one), times the
-        change: real part, growth in 1/s.
+    flutter_speed_percent : Change of the flutter speed, in percent; null without one, or if the
+        sweep begins above it.
+    growth_per_s : dλ/dp of each mode at the operating speed (at the start of the sweep without
+        one), times the change: real part, growth in 1/s.
     frequency_hz : Imaginary part of this change: frequency in Hz.
     """
 
@@ -863,6 +865,7 @@ class Sensitivity(Entry):
     change: str
     critical_speeds_percent: FloatArray
     onsets_percent: FloatArray
+    flutter_speed_percent: float | None = field(default=None)
     growth_per_s: FloatArray
     frequency_hz: FloatArray
 

@@ -12,6 +12,7 @@ use serde::{Deserialize, Serialize};
 use super::analysis::Analysis;
 use super::band::Instability;
 use super::instability_kind::InstabilityKind;
+use super::verdict::flutter_onsets;
 use crate::model::plate::Plate;
 use crate::model::scene::{Parameter, Quantity, Scene, SceneError, SceneFile};
 use crate::model::system::GyroscopicSystem;
@@ -28,6 +29,10 @@ const STEP: f64 = 0.1;
 const BELOW: f64 = 1e-8;
 /// Relative distance within which an onset is a critical speed.
 const SAME_SPEED: f64 = 1e-10;
+/// Relative distance within which a coalescence is the onset of a band: more than the shift of an edge by a search with more waves, 1e-5.
+const SAME_ONSET: f64 = 3e-5;
+/// Difference of a growth rate within which a band has it, as a share of its largest growth.
+const SAME_GROWTH: f64 = 1e-6;
 
 /// First-order effect of changing one number of the scene by 1 %, an angle by 1 degree, or a temperature rise
 /// by 1 K.
@@ -44,8 +49,11 @@ pub struct Sensitivity {
     pub critical_speeds_percent: Vec<f64>,
     /// Change of the onset of each reported band, in percent; null if the sweep begins inside the band.
     pub onsets_percent: Vec<Option<f64>>,
-    /// dλ/dp of each mode at the operating speed (at rest without one), times the change: real part, growth
-    /// in 1/s.
+    /// Change of the flutter speed, in percent; null without one, or if the sweep begins above it.
+    #[serde(default)]
+    pub flutter_speed_percent: Option<f64>,
+    /// dλ/dp of each mode at the operating speed (at the start of the sweep without one), times the change: real
+    /// part, growth in 1/s.
     pub growth_per_s: Vec<f64>,
     /// Imaginary part of this change: frequency in Hz.
     pub frequency_hz: Vec<f64>,
@@ -60,11 +68,6 @@ impl Sensitivity {
     /// Change of the first critical speed, in percent; `None` without a critical speed.
     pub(crate) fn of_first_critical(&self) -> Option<f64> {
         self.critical_speeds_percent.first().copied()
-    }
-
-    /// Change of the onset of the band with this index, in percent.
-    pub(crate) fn of_onset(&self, band: usize) -> Option<f64> {
-        self.onsets_percent.get(band).copied().flatten()
     }
 }
 
@@ -116,13 +119,15 @@ struct Variation {
 }
 
 impl Analysis {
-    /// Effects of each number of the scene on the critical speeds, on the onsets of the bands, and on the
-    /// eigenvalues at one speed. The number with the largest effect on the first critical speed is first.
+    /// Effects of each number of the scene on the critical speeds, on the onsets of the bands, on the flutter
+    /// speed, and on the eigenvalues at one speed. The number with the largest effect on the first critical speed is
+    /// first.
     ///
     /// dλ = −yᴴ(dL)x / yᴴ(∂L/∂λ)x with right and left eigenvectors x, y of L(λ) = λ² + λD(Ω) + K(Ω). Critical
     /// speeds and the onsets of undamped bands change by dΩ = −yᴴ(dL)x / yᴴ(∂L/∂Ω)x, with λ = 0 for a
     /// critical speed, with λ = iω and y = x where two waves coalesce, and with a real λ where two real ones
-    /// coalesce (P. Lancaster, *Lambda-Matrices and Vibrating Systems*, 1966).
+    /// coalesce (P. Lancaster, *Lambda-Matrices and Vibrating Systems*, 1966). The speed at which Re λ of a damped
+    /// mode has a certain value, zero or the flutter threshold, changes by −Re dλ / Re(∂λ/∂Ω).
     ///
     /// # Errors
     /// [`SensitivityError`].
@@ -139,6 +144,7 @@ impl Analysis {
             .iter()
             .map(|band| Merging::new(self, band))
             .collect::<Result<_, _>>()?;
+        let flutter = Merging::flutter(self)?;
         let mut all = Vec::new();
         for variation in Variation::of_scene(scene.file()) {
             let changes = variation.of_matrices(scene, &self.model.plate)?;
@@ -169,6 +175,7 @@ impl Analysis {
                     .map(|c| percent(&Merging::standing(c.component, c.speed_rad_per_s, &c.shape)))
                     .collect(),
                 onsets_percent: mergings.iter().map(|m| m.as_ref().map(percent)).collect(),
+                flutter_speed_percent: flutter.as_ref().map(percent),
                 growth_per_s: eigenvalues.iter().map(|change| change.re).collect(),
                 frequency_hz: eigenvalues.iter().map(|change| change.im / TAU).collect(),
                 parameter: variation.parameter.path().to_owned(),
@@ -203,9 +210,10 @@ impl Variation {
         let mut all = Vec::new();
         let mut add = |path: String| {
             let parameter = Parameter::new(&path);
-            // A key that the scene omits has no number to vary.
-            if let Ok(value) = parameter.get(scene) {
-                let by = By::of(&path);
+            let by = By::of(&path);
+            // A key that the scene omits has no number to vary, and a percent of zero is no change.
+            let value = parameter.get(scene).ok();
+            if let Some(value) = value.filter(|value| by.step(*value) != 0.0) {
                 all.push(Variation {
                     parameter,
                     value,
@@ -262,7 +270,7 @@ struct Merging {
     x: Col<c64>,
     /// Left vector; `None` if it equals the right one.
     y: Option<Col<c64>>,
-    /// Whether the onset is the speed at which Re λ of a damped mode is zero.
+    /// Whether the onset is the speed at which Re λ of a damped mode reaches a value.
     damped: bool,
 }
 
@@ -285,7 +293,7 @@ impl Merging {
             return Ok(None);
         }
         if !model.is_conservative() {
-            return Self::damped(analysis, band);
+            return Self::damped(analysis, band, band.from_rad_per_s, 0.0);
         }
         let is_onset = |speed: f64| (speed / band.from_rad_per_s - 1.0).abs() < SAME_SPEED;
         if band.kind == InstabilityKind::Divergence {
@@ -302,57 +310,84 @@ impl Merging {
         Self::coalescing(model, band)
     }
 
-    /// Coalescence of two waves, or of two real λ where flutter turns into divergence; `None` if there are no such modes.
+    /// The flutter speed: onset of an undamped band, or speed at which Re λ of a damped mode reaches the threshold; `None` without one, or
+    /// if the range begins above it.
+    fn flutter(analysis: &Analysis) -> Result<Option<Self>, SpectrumError> {
+        let threshold = analysis.scene.flutter_threshold_per_s();
+        let [Some(onset), _] = flutter_onsets(analysis.bands(), threshold) else {
+            return Ok(None);
+        };
+        let band = &analysis.bands()[onset.band];
+        if analysis.model.is_conservative() {
+            Self::new(analysis, band)
+        } else {
+            Self::damped(analysis, band, onset.speed_rad_per_s, threshold)
+        }
+    }
+
+    /// Coalescence of two waves, or of two real λ where flutter turns into divergence; `None` if there is none at the onset. Two waves that
+    /// cross there without coalescing may be nearer to each other than those that do.
     fn coalescing(
         model: &SpectralModel,
         band: &Instability,
     ) -> Result<Option<Self>, SpectrumError> {
         let speed = band.from_rad_per_s;
         let modes = model.modes(speed * (1.0 - BELOW))?;
-        let expected = match band.kind {
+        let expected: Vec<(usize, c64)> = match band.kind {
             InstabilityKind::Flutter => closest_opposite(&modes)
-                .map(|[plus, minus]| (plus.component, 0.5 * (plus.lambda + minus.lambda))),
+                .map(|[plus, minus]| (plus.component, 0.5 * (plus.lambda + minus.lambda)))
+                .collect(),
             InstabilityKind::Divergence => {
                 let flutter = modes.iter().filter(|mode| mode.kind == ModeKind::Flutter);
-                let slowest = smallest(flutter, |mode| mode.lambda.im);
-                slowest.map(|mode| (mode.component, mode.lambda.re.into()))
+                let mut slowest: Vec<&Mode> = flutter.collect();
+                slowest.sort_by(|x, y| x.lambda.im.total_cmp(&y.lambda.im));
+                let at = |mode: &Mode| (mode.component, mode.lambda.re.into());
+                slowest.into_iter().map(at).collect()
             }
         };
-        Ok(expected.and_then(|(component, expected)| {
+        let at_onset = |(component, expected): (usize, c64)| {
             let found = model.double_eigenvalue(component, speed, expected)?;
+            let off = (found.speed_rad_per_s / speed - 1.0).abs();
+            (off <= SAME_ONSET).then_some((component, found))
+        };
+        let found = expected.into_iter().find_map(at_onset);
+        Ok(found.map(|(component, found)| {
             let lifted = |lambda: c64, x: &Col<c64>| {
                 model.components[component].lifted(found.speed_rad_per_s, lambda, x)
             };
             // L(λ)ᴴ = L(−λ̄).
-            Some(Merging {
+            Merging {
                 component,
                 speed,
                 lambda: found.lambda,
                 x: lifted(found.lambda, &found.right),
                 y: Some(lifted(-found.lambda.conj(), &found.left)),
                 damped: false,
-            })
+            }
         }))
     }
 
-    /// Onset of a damped band with Re λ = 0; `None` if the band begins otherwise, at the end of the previous
-    /// one.
-    fn damped(analysis: &Analysis, band: &Instability) -> Result<Option<Self>, SpectrumError> {
-        const ONSET: f64 = 1e-6;
-        let Some(onset) = band.curve.first().map(|point| point.number) else {
+    /// Speed of a damped band at which Re λ reaches a value, in 1/s; `None` if the band begins there with another one, at the end of the
+    /// previous band.
+    fn damped(
+        analysis: &Analysis,
+        band: &Instability,
+        speed: f64,
+        growth_per_s: f64,
+    ) -> Result<Option<Self>, SpectrumError> {
+        let is_reached =
+            |lambda: &c64| (lambda.re - growth_per_s).abs() <= SAME_GROWTH * band.peak_growth_per_s;
+        let Some(expected) = band.lambda_at(speed).filter(is_reached) else {
             return Ok(None);
         };
-        if onset.re.abs() > ONSET * band.peak_growth_per_s {
-            return Ok(None);
-        }
-        let modes = analysis.model.modes(band.from_rad_per_s)?;
-        let nearest = smallest(&modes, |mode| (mode.lambda - onset).norm());
+        let modes = analysis.model.modes(speed)?;
+        let nearest = smallest(&modes, |mode| (mode.lambda - expected).norm());
         Ok(nearest.map(|mode| Merging {
             component: mode.component,
-            speed: band.from_rad_per_s,
+            speed,
             lambda: mode.lambda,
             x: analysis.model.components[mode.component].lifted(
-                band.from_rad_per_s,
+                speed,
                 mode.lambda,
                 &mode.coordinates,
             ),
@@ -373,9 +408,12 @@ impl Merging {
     }
 }
 
-/// The + and the − mode whose frequencies are nearest to each other.
-fn closest_opposite(modes: &[Mode]) -> Option<[&Mode; 2]> {
+/// The + and − modes, the pair whose frequencies are nearest to each other first.
+fn closest_opposite(modes: &[Mode]) -> impl Iterator<Item = [&Mode; 2]> {
     let signed = |sign: i8| modes.iter().filter(move |m| m.krein_sign() == sign);
     let pairs = signed(1).flat_map(|plus| signed(-1).map(move |minus| [plus, minus]));
-    smallest(pairs, |[plus, minus]| (plus.lambda - minus.lambda).norm())
+    let mut pairs: Vec<[&Mode; 2]> = pairs.collect();
+    let apart = |[plus, minus]: &[&Mode; 2]| (plus.lambda - minus.lambda).norm();
+    pairs.sort_by(|x, y| apart(x).total_cmp(&apart(y)));
+    pairs.into_iter()
 }

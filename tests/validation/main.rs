@@ -40,3 +40,4 @@ mod static_deflection;
 mod thickness_profile;
 mod washboarding;
 mod witness;
+mod zeros;

@@ -3,12 +3,14 @@
 
 use std::f64::consts::TAU;
 
+use faer::c64;
 use sawflutter::model::plate::{Plate, Resolution};
 use sawflutter::model::scene::{
-    GuideFile, InPlane, Mount, Parameter, RimFile, Scene, ThicknessRow, rad_per_s,
+    Accuracy, GuideFile, InPlane, Mount, Parameter, RimFile, Scene, SpeedRange, ThicknessRow,
+    rad_per_s,
 };
-use sawflutter::modes::SpectralModel;
-use sawflutter::stability::{Analysis, InstabilityKind};
+use sawflutter::modes::{SpectralModel, Strategy};
+use sawflutter::stability::{Analysis, InstabilityKind, Sensitivity};
 
 use super::saws::dense_analysis;
 
@@ -94,11 +96,9 @@ fn critical_speeds_of_a_stepped_blade_with_heavy_teeth_move_as_reported() {
     }
 }
 
-/// A divergence that begins where a flutter mode becomes two real eigenvalues, 43 rpm above the nearest critical speed:
-/// its onset changes as differences of the onset predict, and not as that critical speed does.
-#[test]
-fn the_onset_of_divergence_moves_with_its_coalescence() {
-    let scene = Scene::paper()
+/// A saw with flutter that becomes divergence where two real eigenvalues coalesce.
+fn flutter_that_becomes_divergence() -> Scene {
+    Scene::paper()
         .edited(|saw| {
             (saw.spline, saw.cut, saw.runup, saw.probe, saw.measured) =
                 (None, None, None, None, None);
@@ -118,7 +118,40 @@ fn the_onset_of_divergence_moves_with_its_coalescence() {
                 ..saw.guides[0].clone()
             };
         })
-        .unwrap();
+        .unwrap()
+}
+
+/// Growth and frequency of a peak are those of an eigenvalue at its speed, also where flutter grows most beside the divergence that it
+/// becomes. Reference: dense eigenvalues.
+#[test]
+fn the_peak_of_a_band_has_the_eigenvalue_of_its_speed() {
+    let analysis = dense_analysis(
+        &flutter_that_becomes_divergence(),
+        RESOLUTION,
+        [2050.0, 2200.0],
+        12,
+    );
+    let mut beside = 0;
+    for band in analysis.bands() {
+        let found = c64::new(band.peak_growth_per_s, band.frequency_rad_per_s);
+        let modes = analysis.model.full_modes(band.peak_rad_per_s).unwrap();
+        let off = modes.iter().map(|mode| (mode.lambda - found).norm());
+        let off = off.fold(f64::INFINITY, f64::min);
+        assert!(off < 1e-6 * band.peak_growth_per_s, "{off:e}: {band}");
+        let width = band.range().width();
+        let ends = band.range().ends();
+        let off_end = ends.map(|end| (band.peak_rad_per_s - end).abs());
+        let is_flutter = band.kind == InstabilityKind::Flutter;
+        beside += usize::from(is_flutter && off_end[0].min(off_end[1]) < 1e-2 * width);
+    }
+    assert!(beside > 0, "{:?}", analysis.bands());
+}
+
+/// A divergence that begins where a flutter mode becomes two real eigenvalues, 43 rpm above the nearest critical speed:
+/// its onset changes as differences of the onset predict, and not as that critical speed does.
+#[test]
+fn the_onset_of_divergence_moves_with_its_coalescence() {
+    let scene = flutter_that_becomes_divergence();
     let of = |scene: &Scene| dense_analysis(scene, RESOLUTION, [2110.0, 2200.0], 12);
     let middle = of(&scene);
     let diverges = |a: &Analysis| {
@@ -151,6 +184,50 @@ fn the_onset_of_divergence_moves_with_its_coalescence() {
             "{path}: {told} {difference}"
         );
     }
+}
+
+/// The speed at which Re λ of a saw with damped material reaches the flutter threshold. Reference: differences of the speed at which the
+/// fastest growing of all dense eigenvalues of the changed saw does.
+#[test]
+fn the_flutter_speed_of_a_damped_saw_moves_as_reported() {
+    let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/scenes/gallery");
+    let scene = Scene::from_path(format!("{folder}/damped-material.json")).unwrap();
+    let scene = scene.edited(|saw| saw.accuracy = Accuracy::Draft).unwrap();
+    let analysis = Analysis::new(&scene).unwrap();
+    let speed = analysis.flutter_speed_rad_per_s.unwrap();
+    let resolution = analysis.model.plate.resolution;
+    let flutter = |scene: &Scene| {
+        let range = SpeedRange::new(speed, speed);
+        let model = SpectralModel::new(Plate::new(scene, resolution), range, Strategy::Dense);
+        let model = model.unwrap();
+        let growth = |speed: f64| {
+            let modes = model.full_modes(speed).unwrap();
+            let growth = modes.iter().map(|mode| mode.lambda.re);
+            growth.fold(f64::MIN, f64::max) - scene.flutter_threshold_per_s()
+        };
+        let mut last = (speed, growth(speed));
+        let mut next = speed * (1.0 + 1e-5);
+        for _ in 0..5 {
+            let found = growth(next);
+            let slope = (found - last.1) / (next - last.0);
+            last = (next, found);
+            if found.abs() < 1e-7 {
+                break;
+            }
+            next -= found / slope;
+        }
+        assert!(last.1.abs() < 1e-5, "{last:?}");
+        last.0
+    };
+    let found = Sensitivity::all(&analysis).unwrap();
+    let share = 0.1;
+    let path = "guides[0].radius_m";
+    let told = found.iter().find(|own| own.parameter == path).unwrap();
+    let told = 0.01 * told.flutter_speed_percent.unwrap();
+    let [low, high] = [-share, share].map(|share| flutter(&moved(&scene, path, share)));
+    let difference = (high - low) / (2.0 * share * speed);
+    let off = (told - difference).abs();
+    assert!(off < 1e-2 * difference.abs(), "{told} {difference}");
 }
 
 /// Compares every sensitivity with the difference of two analyses; returns the number of bands.

@@ -102,13 +102,6 @@ impl Report {
         self.shapes = shapes(analysis, asked_rad_per_s)?;
         Ok(())
     }
-
-    /// Index into `instabilities` of the band that begins at the flutter speed.
-    pub(crate) fn flutter_band(&self) -> Option<usize> {
-        let flutter_rpm = self.flutter_speed_rpm?;
-        let mut bands = self.instabilities.iter();
-        bands.position(|band| band.from_rpm == flutter_rpm)
-    }
 }
 
 /// Size of the basis and estimated errors.

@@ -18,11 +18,10 @@ const FREE: f64 = 1.05;
 
 /// The effects, as numbers; `None` if the report has no sensitivities.
 pub fn chart(report: &Report) -> Option<ChartData> {
-    let flutter = report.flutter_band();
     let mut rows: Vec<Row> = report
         .sensitivities
         .iter()
-        .map(|sensitivity| Row::new(sensitivity, flutter))
+        .map(Row::new)
         .filter(|row| row.strength() >= LEAST)
         .collect();
     rows.sort_by(|one, other| other.strength().total_cmp(&one.strength()));
@@ -87,7 +86,7 @@ struct Row {
 }
 
 impl Row {
-    fn new(sensitivity: &Sensitivity, flutter: Option<usize>) -> Self {
+    fn new(sensitivity: &Sensitivity) -> Self {
         Row {
             name: format!(
                 "{} + {}",
@@ -95,7 +94,7 @@ impl Row {
                 sensitivity.change
             ),
             critical: sensitivity.of_first_critical(),
-            flutter: flutter.and_then(|band| sensitivity.of_onset(band)),
+            flutter: sensitivity.flutter_speed_percent,
         }
     }
 

@@ -43,7 +43,7 @@ impl Change {
         for sensitivity in &report.sensitivities {
             let parameter = Parameter::new(&sensitivity.parameter);
             let value = parameter.get(scene.file())?;
-            let percent = raised.percent(report, sensitivity);
+            let percent = raised.percent(sensitivity);
             let (Some(percent), Some(step)) = (percent, step(&parameter, value)) else {
                 continue;
             };

@@ -25,7 +25,7 @@ impl DecidedSpeed {
         let operating = report.operating.as_ref();
         let breaks_rule = operating.is_some_and(|operating| operating.within_limit == Some(false));
         let mut sensitivities = report.sensitivities.iter();
-        let is_known = sensitivities.any(|by| DecidedSpeed::Flutter.percent(report, by).is_some());
+        let is_known = sensitivities.any(|by| DecidedSpeed::Flutter.percent(by).is_some());
         if breaks_rule && is_known {
             DecidedSpeed::Flutter
         } else {
@@ -59,10 +59,10 @@ impl DecidedSpeed {
     }
 
     /// Its relative change by a sensitivity, in percent.
-    pub(super) fn percent(self, report: &Report, by: &Sensitivity) -> Option<f64> {
+    pub(super) fn percent(self, by: &Sensitivity) -> Option<f64> {
         match self {
             DecidedSpeed::FirstCritical => by.of_first_critical(),
-            DecidedSpeed::Flutter => by.of_onset(report.flutter_band()?),
+            DecidedSpeed::Flutter => by.flutter_speed_percent,
         }
     }
 }
@@ -81,7 +81,7 @@ pub struct DecisiveSpeed {
     /// Distance above the operating speed, negative below it; null without one of both.
     pub margin_rpm: Option<f64>,
     /// Change of the speed by usual tolerances of production, to first order: the root of the sum of the squares of the changes by each
-    /// number. Null if the onset of the band is no event with a derivative.
+    /// number. Null if the speed has no derivative.
     pub tolerance_rpm: Option<f64>,
 }
 
@@ -109,7 +109,7 @@ fn tolerated_share(report: &Report, speed: DecidedSpeed) -> Option<f64> {
         let parameter = Parameter::new(&sensitivity.parameter);
         let value = parameter.get(&report.scene).ok()?;
         let steps = Tolerances::USUAL.of(&parameter, value) / sensitivity.step(value);
-        let percent = speed.percent(report, sensitivity)? * steps;
+        let percent = speed.percent(sensitivity)? * steps;
         square += percent * percent;
     }
     Some(1e-2 * f64::sqrt(square))

@@ -19,12 +19,11 @@ pub struct Influence {
 pub fn influences(entries: &[Sensitivity], report: &Report) -> Vec<Influence> {
     let critical = report.critical_speeds.first().map(|critical| critical.rpm);
     let flutter = report.flutter_speed_rpm;
-    let band = report.flutter_band();
     let changes: Vec<[Option<f64>; 2]> = entries
         .iter()
         .map(|entry| {
             let of_critical = entry.of_first_critical();
-            let of_flutter = band.and_then(|band| entry.of_onset(band));
+            let of_flutter = entry.flutter_speed_percent;
             let rpm = |percent: Option<f64>, speed: Option<f64>| Some(0.01 * percent? * speed?);
             [rpm(of_critical, critical), rpm(of_flutter, flutter)]
         })

@@ -100,7 +100,6 @@ pub fn heat(text: &mut Outline, report: &Report) {
 
 /// The relative changes of the first critical speed and of the flutter speed by a change of each number of the scene.
 pub fn sensitivity(report: &Report) -> Table {
-    let flutter = report.flutter_band();
     let columns = [
         Column::words("change"),
         Column::words("number"),
@@ -113,7 +112,7 @@ pub fn sensitivity(report: &Report) -> Table {
             format!("{} more", entry.change).into(),
             entry.parameter.clone().into(),
             percent(entry.of_first_critical()),
-            percent(flutter.and_then(|band| entry.of_onset(band))),
+            percent(entry.flutter_speed_percent),
         ]
     });
     let title = "Influences on the first critical speed, and the flutter speed";
