@@ -10,6 +10,7 @@ use std::sync::OnceLock;
 
 use sawflutter::analyses::campbell::Report;
 use sawflutter::model::scene::{Accuracy, Scene};
+use serde_json::Value;
 use tempfile::TempDir;
 
 use super::program::{
@@ -241,12 +242,79 @@ fn a_part_of_the_sweep_can_be_drawn() {
     assert!(text(&refused.stderr).contains("do not name a part of the sweep"));
 }
 
+/// Whether a value is valid by a schema, by the rules of JSON Schema that schemas of scenes use.
+fn is_valid(root: &Value, schema: &Value, value: &Value) -> bool {
+    let is_valid_by = |schema: &Value| is_valid(root, schema, value);
+    let list = |key: &str| schema[key].as_array().into_iter().flatten();
+    let is_of = |name: &Value| match name.as_str().unwrap_or_default() {
+        "object" => value.is_object(),
+        "array" => value.is_array(),
+        "string" => value.is_string(),
+        "boolean" => value.is_boolean(),
+        "integer" => value.as_f64().is_some_and(|number| number.fract() == 0.0),
+        "number" => value.is_number(),
+        "null" => value.is_null(),
+        other => panic!("type {other}"),
+    };
+    let is_typed = match &schema["type"] {
+        Value::Null => true,
+        Value::Array(names) => names.iter().any(is_of),
+        name => is_of(name),
+    };
+    let refers = schema["$ref"].as_str().is_none_or(|path| {
+        let target = root.pointer(path.trim_start_matches('#'));
+        is_valid_by(target.expect(path))
+    });
+    let is_some = |key: &str| schema[key].is_null() || list(key).any(is_valid_by);
+    let is_listed = schema["enum"].is_null() || list("enum").any(|one| one == value);
+    let is_constant = schema["const"].is_null() || schema["const"] == *value;
+    let has_keys = value.as_object().is_none_or(|object| {
+        let required = list("required").all(|key| object.contains_key(key.as_str().unwrap()));
+        let mut pairs = object.iter();
+        required
+            && pairs.all(|(key, value)| match &schema["properties"][key] {
+                Value::Null => schema["additionalProperties"] != false,
+                of_key => is_valid(root, of_key, value),
+            })
+    });
+    let has_items = value.as_array().is_none_or(|items| {
+        let mut items = items.iter();
+        schema["items"].is_null() || items.all(|item| is_valid(root, &schema["items"], item))
+    });
+    let is_allowed = is_some("anyOf") && is_some("oneOf") && list("allOf").all(is_valid_by);
+    is_typed && refers && is_allowed && is_listed && is_constant && has_keys && has_items
+}
+
+/// Every scene of the gallery is valid by the printed schema; a scene with a misspelt key, without its blade, or with a word for a number
+/// is not.
 #[test]
 fn schema_prints_the_schema_of_a_scene() {
     let output = sawflutter().arg("schema").output().unwrap();
     assert_eq!(output.status.code(), Some(0));
-    let schema: serde_json::Value = serde_json::from_slice(&output.stdout).unwrap();
-    assert_eq!(schema, sawflutter::model::scene::json_schema());
+    let schema: Value = serde_json::from_slice(&output.stdout).unwrap();
+    let gallery = Path::new(env!("CARGO_MANIFEST_DIR")).join("scenes/gallery");
+    let scenes: Vec<Value> = std::fs::read_dir(gallery)
+        .unwrap()
+        .map(|entry| serde_json::from_slice(&read(entry.unwrap().path())).unwrap())
+        .collect();
+    assert!(scenes.len() > 20);
+    for scene in &scenes {
+        assert!(is_valid(&schema, &schema, scene), "{}", scene["name"]);
+    }
+    let is_refused = |change: &dyn Fn(&mut Value)| {
+        let mut scene = scenes[0].clone();
+        change(&mut scene);
+        !is_valid(&schema, &schema, &scene)
+    };
+    assert!(is_refused(
+        &|scene| scene["blade"]["thickness_mm"] = 2.into()
+    ));
+    assert!(is_refused(
+        &|scene| scene["blade"]["thickness_m"] = "thin".into()
+    ));
+    assert!(is_refused(&|scene| {
+        scene.as_object_mut().unwrap().remove("blade");
+    }));
 }
 
 /// A reader that closes the pipe, like `head -0`, is no failure.
