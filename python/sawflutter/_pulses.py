@@ -12,9 +12,9 @@ _LOWER, _MIDDLE, _UPPER = 0.4, 0.5, 0.6
 # Pulses are between these for at most a share of the time, a sine for 0.13 of it, and their range is at
 # least a share of their largest value.
 _BETWEEN, _RANGE = 0.04, 0.5
-# A turn that is shorter or longer than these multiples of the median of five has a pulse too many or
-# too few.
-_SHORTEST, _LONGEST = 0.6, 1.6
+# A distance of pulses that is shorter or longer than these multiples of the median, and differs from it
+# by more than some samples, has a pulse too many or too few.
+_SHORTEST, _LONGEST, _ROUNDED = 0.6, 1.6, 1.6
 
 
 def jumps(samples: FloatArray) -> bool:
@@ -40,19 +40,41 @@ def speed_of(samples: FloatArray, rate_hz: float, pulses_per_turn: int) -> Float
     before, after = samples[begun - 1], samples[begun]
     share = np.clip((middle - before) / np.where(after > before, after - before, 1.0), 0.0, 1.0)
     times = (begun - 1 + share) / rate_hz
+    _check_regular(times, pulses_per_turn, 1.0 / rate_hz)
     turns = times[pulses_per_turn:] - times[:-pulses_per_turn]
-    if len(turns) >= 5:
-        median = np.median(np.lib.stride_tricks.sliding_window_view(turns, 5), axis=1)
-        ratio = turns[2:-2] / median
-        wrong = np.flatnonzero((ratio < _SHORTEST) | (ratio > _LONGEST))
-        if len(wrong):
-            at = wrong[0] + 2
-            given = f"a turn of {turns[at]:.3g} s between turns of {median[wrong[0]]:.3g} s at {times[at]:.3g} s"
-            allowed = "pulses of which none is missing and none is added"
-            remedy = "filter the pulses, or give the speed as rpm: pairs (time in s, rpm)"
-            raise refused("tacho", given, allowed, remedy)
     middles = 0.5 * (times[pulses_per_turn:] + times[:-pulses_per_turn])
     return np.asarray(np.interp(np.arange(len(samples)) / rate_hz, middles, 60.0 / turns))
+
+
+def _check_regular(times: FloatArray, pulses_per_turn: int, step_s: float) -> None:
+    """Refuses pulses whose distances do not repeat every turn: one is missing or added, once or in
+    every turn. Marks may be unevenly spaced, so a distance is compared with the median of the distances
+    of the same mark in the turns beside it."""
+    between = np.diff(times)
+    turns = len(between) // pulses_per_turn
+    width = 5 if turns >= 5 else 3
+    reach = (width - 1) * pulses_per_turn
+    if len(between) <= reach:
+        return
+    windows = np.lib.stride_tricks.sliding_window_view(between, reach + 1)[:, ::pulses_per_turn]
+    median, own = np.median(windows, axis=1), windows[:, width // 2]
+    wrong = (own < _SHORTEST * median) | (own > _LONGEST * median)
+    # Distances of few samples are rounded to whole numbers of them.
+    wrong &= np.abs(own - median) > _ROUNDED * step_s
+    if not wrong.any():
+        return
+    first = int(np.flatnonzero(wrong)[0])
+    at = first + reach // 2
+    other = f"that are {median[first]:.3g} s apart in other turns, at {times[at]:.3g} s"
+    given = f"{own[first]:.3g} s between pulses {other}"
+    allowed = "pulses of which none is missing and none is added"
+    remedy = "filter the pulses, or give the speed as rpm: pairs (time in s, rpm)"
+    if pulses_per_turn > 1:
+        remedy = (
+            f"give as pulses_per_turn those that come in every turn, {pulses_per_turn - 1} if one of "
+            f"{pulses_per_turn} is always missing; or {remedy}"
+        )
+    raise refused("tacho", given, allowed, remedy)
 
 
 def _level(samples: FloatArray, share: float) -> float:

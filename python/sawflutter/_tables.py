@@ -78,10 +78,12 @@ def of_times(path: str | os.PathLike[str], times: FloatArray, unit: str) -> floa
     seconds = known_factor(SECONDS, unit, f"times of {path}") * times
     step = even_step(seconds)
     if step is None:
+        if len(seconds) < 2:
+            raise InputError(f"{path} has fewer than two times; record more samples")
         steps = np.diff(seconds)
         raise InputError(
-            f"the times of {path} are not evenly spaced (steps from {steps.min(initial=0.0):g} to "
-            f"{steps.max(initial=0.0):g} s); resample it, or write more digits of the time"
+            f"the times of {path} are not evenly spaced (steps from {steps.min():g} to {steps.max():g} s); "
+            "resample it, or write more digits of the time"
         )
     return 1.0 / step
 

@@ -113,9 +113,10 @@ def read_frf(
     steps = np.diff(of.frequency_hz)
     step = even_step(of.frequency_hz)
     if len(steps) < _FEWEST or step is None:
+        with_steps = f" with steps from {steps.min():g} to {steps.max():g} Hz" if len(steps) else ""
         raise InputError(
-            f"{path} has {len(of.frequency_hz)} frequencies with steps from {steps.min(initial=np.inf):g} to "
-            f"{steps.max(initial=0.0):g} Hz, but must have more than {_FEWEST} at even steps; resample it"
+            f"{path} has {len(of.frequency_hz)} frequencies{with_steps}, but must have more than {_FEWEST} at "
+            "even steps; resample it"
         )
     response = array(of.response, np.complex128)
     return Spectrum(array(of.frequency_hz), response, speed, 2.0 * step, of.unit, of.name)

@@ -230,6 +230,14 @@ def test_pulses_are_no_speed_and_no_signal(tmp_path: Path, noise: float, high: f
             sf.read_record(path, tacho="key", signal=0)
 
 
+def test_uneven_times_are_refused_with_their_own_steps(tmp_path: Path) -> None:
+    time = np.cumsum(np.where(np.arange(50) < 25, 0.003, 0.002))
+    path = tmp_path / "phone.csv"
+    path.write_text(table("time_s;probe [mm]", [time, np.sin(300.0 * time)]))
+    with pytest.raises(sf.InputError, match=r"steps from 0\.002 to 0\.003 s"):
+        sf.read_record(path, rpm=0.0)
+
+
 def test_a_speed_of_few_digits_or_with_rests_is_a_speed(tmp_path: Path) -> None:
     time = np.arange(0.0, 4.0, 2e-3)
     path = tmp_path / "record.csv"

@@ -140,6 +140,34 @@ def test_the_speed_follows_from_pulses(tmp_path: Path, pulses: int) -> None:
     assert np.abs(record.rpm / rpm - 1.0)[within].max() < 0.03
 
 
+# A wheel of 20 teeth of which one is missing, while the speed rises from 300 to 600 rpm: in the middle it is 450 rpm. With 20 pulses a
+# turn it would be 428.6 rpm, 20/21 of it.
+def test_a_wheel_with_a_missing_tooth_is_refused(tmp_path: Path) -> None:
+    time = np.arange(0.0, 5.0, 5e-4)
+    turns = np.cumsum(300.0 + 60.0 * time) / 60.0 * 5e-4
+    tooth = np.floor(20.0 * turns) % 20
+    tacho = np.where((20.0 * turns % 1.0 < 0.5) & (tooth != 19), 5.0, 0.0)
+    path = tmp_path / "wheel.csv"
+
+    def write(tacho: Array) -> None:
+        table = np.column_stack([time, np.sin(300.0 * time), tacho])
+        np.savetxt(path, table, delimiter=",", header="time_s,probe,tacho", comments="", fmt="%.6g")
+
+    write(tacho)
+    with pytest.raises(sf.InputError, match="none is missing .*give as pulses_per_turn .*19 if one of 20"):
+        sf.read_record(path, tacho="tacho", pulses_per_turn=20)
+    record = sf.read_record(path, tacho="tacho", pulses_per_turn=19)
+    assert abs(record.rpm[5000] - 450.0) < 5.0
+    # Every tooth is there, but for one once.
+    whole = np.where(20.0 * turns % 1.0 < 0.5, 5.0, 0.0)
+    write(whole)
+    assert abs(sf.read_record(path, tacho="tacho", pulses_per_turn=20).rpm[5000] - 450.0) < 5.0
+    whole[(turns > 8.0) & (turns < 8.05)] = 0.0
+    write(whole)
+    with pytest.raises(sf.InputError, match="none is missing"):
+        sf.read_record(path, tacho="tacho", pulses_per_turn=20)
+
+
 # The integrator of a run-up, with the mean acceleration of a step h, lowers a frequency f to
 # atan(π f h) / (π h).
 def unlowered(rows: list[tuple[float, list[float]]], step_s: float) -> list[tuple[float, list[float]]]:
