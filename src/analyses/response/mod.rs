@@ -122,7 +122,7 @@ pub(crate) fn of_analysis(
     let points = asked
         .or(operating)
         .map(|speed| {
-            let place = scene.side_force().at.polar();
+            let place = scene.side_force().at;
             let end = options
                 .to_hz
                 .map(|hz| TAU * hz)

@@ -8,7 +8,7 @@ use super::report::FrequencyResponse;
 use super::solver::{Motion, Solver};
 use crate::model::evenly_spaced;
 use crate::model::plate::Plate;
-use crate::model::scene::{Polar, rpm};
+use crate::model::scene::{Point, rpm};
 use crate::modes::SpectrumError;
 use crate::motion::steady::{Family, State};
 
@@ -21,7 +21,7 @@ const BESIDE: [f64; 9] = [1e-5, 1e-4, 3e-4, 1e-3, 2e-3, 4e-3, 8e-3, 1.5e-2, 3e-2
 const UNBOUNDED_N: f64 = 1e-2;
 
 impl FrequencyResponse {
-    /// Computes the response at a speed, up to a frequency, both in rad/s, to a force at a radius and an angle.
+    /// Computes the response at a speed, up to a frequency, both in rad/s, to a force at a point.
     ///
     /// # Errors
     /// [`SpectrumError`].
@@ -31,9 +31,9 @@ impl FrequencyResponse {
         motion: &Motion<'_>,
         speed: f64,
         end: f64,
-        place: Polar,
+        place: Point,
     ) -> Result<Self, SpectrumError> {
-        let values = plate.functions_at(place.radius_m, place.angle_rad);
+        let values = plate.functions_at(place.radius_m, place.polar().angle_rad);
         let load = Col::from_fn(values.len(), |i| c64::new(values[i], 0.0));
         let mut frequencies = evenly_spaced([0.0, end], FREQUENCIES);
         let (mut receptance, mut unbounded) = (Vec::new(), Vec::new());
@@ -73,7 +73,7 @@ impl FrequencyResponse {
         Ok(FrequencyResponse {
             rpm: rpm(speed),
             force_radius_m: place.radius_m,
-            force_angle_deg: place.angle_rad.to_degrees(),
+            force_angle_deg: place.angle_deg,
             frequency_hz: frequencies.iter().map(|omega| omega / TAU).collect(),
             receptance_m_per_n: of(|w| w.norm()).collect(),
             phase_deg: of(|w| w.arg().to_degrees()).collect(),

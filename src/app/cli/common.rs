@@ -5,7 +5,8 @@ use std::path::{Path, PathBuf};
 
 use crate::analyses::commands::{Argument, CALLS, CommandReport};
 use crate::model::scene::{
-    Accuracy, RefusedValue, SCENE_TEXT, Scene, SceneError, Setting, number_in, quantity,
+    Accuracy, Reading, RefusedValue, SCENE_TEXT, Scene, SceneError, Setting, number_in, numbers_of,
+    quantity,
 };
 use crate::page::text::{FileError, Kind, printable, read_path, read_stream, shown};
 use anyhow::Context;
@@ -180,8 +181,22 @@ fn in_unit(unit: &str, text: &str) -> Result<f64, String> {
 
 /// Parses a rotation speed, in rpm.
 pub fn rpm(text: &str) -> Result<f64, String> {
-    in_unit("rpm", text)
+    let read = Reading::of(SPEED).and_then(|reading| reading.named("it").number(text));
+    read.map_err(|refused| refused.to_string())
 }
+
+/// Rotation speeds, in rpm.
+#[derive(Debug, Clone)]
+pub struct Speeds(pub Vec<f64>);
+
+/// Parses rotation speeds, in rpm, between commas.
+pub fn speeds(text: &str) -> Result<Speeds, String> {
+    let read = numbers_of("it", SPEED, text);
+    read.map(Speeds).map_err(|refused| refused.to_string())
+}
+
+/// The number of a scene whose usual range decides how the text of a speed is read.
+const SPEED: &str = "operating_rpm";
 
 /// Parses a frequency, in Hz.
 pub fn hertz(text: &str) -> Result<f64, String> {

@@ -7,7 +7,7 @@ use clap::Args;
 
 use super::assumption::with_options;
 use super::block_text::pasted;
-use super::common::{Common, rpm, words};
+use super::common::{Common, Speeds, speeds, words};
 use super::page::Page;
 use super::progress::watched;
 use super::shorthand::Given;
@@ -26,9 +26,9 @@ The forces are the scene's `cut`; `sawflutter schema` says what it may contain."
 pub struct Arguments {
     #[command(flatten)]
     common: Common,
-    #[arg(long, value_name = "RPM", allow_hyphen_values = true, value_parser = rpm,
+    #[arg(long, value_name = "RPM", allow_hyphen_values = true, value_parser = speeds,
         help = const { words("cut", "rpm") })]
-    rpm: Vec<f64>,
+    rpm: Vec<Speeds>,
     #[arg(long, help = const { words("cut", "stretching") })]
     stretching: bool,
     #[command(flatten)]
@@ -65,7 +65,12 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<()> {
     if arguments.stretching {
         scene = scene.edited(|file| file.cut.iter_mut().for_each(|cut| cut.stretching = true))?;
     }
-    let runs = pasted(&scene, scene.needed_cut())?.runs_at(&arguments.rpm)?;
+    let rpm: Vec<f64> = arguments
+        .rpm
+        .iter()
+        .flat_map(|given| given.0.iter().copied())
+        .collect();
+    let runs = pasted(&scene, scene.needed_cut())?.runs_at(&rpm)?;
     arguments.page.tried()?;
     let folder = arguments.common.folder()?;
     let report = watched(|progress| {

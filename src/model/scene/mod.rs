@@ -107,9 +107,9 @@ pub use saw::Scene;
 pub use schema::json_schema;
 #[cfg(feature = "cli")]
 pub(crate) use schema::{Key, keys};
-#[cfg(feature = "page")]
+#[cfg(any(feature = "page", feature = "cli"))]
 pub(crate) use setting::Reading;
-pub use setting::{Setting, number_in, number_of};
+pub use setting::{Setting, number_in, number_of, numbers_of};
 pub use side_force::SideForceFile;
 pub(crate) use side_force::{OscillatingForce, SideForce, USUAL_SIDE_FORCE_N};
 pub use span::Span;
@@ -133,7 +133,33 @@ pub fn rad_per_s(rpm: f64) -> f64 {
     rpm * std::f64::consts::PI / 30.0
 }
 
-/// Rotation speed in revolutions per minute from rad/s.
+/// Rotation speed in revolutions per minute from rad/s, rounded to [`DIGITS`], so that a typed speed comes back as typed.
 pub fn rpm(rad_per_s: f64) -> f64 {
-    rad_per_s * 30.0 / std::f64::consts::PI
+    let rpm = rad_per_s * 30.0 / std::f64::consts::PI;
+    if rpm == 0.0 || !rpm.is_finite() {
+        return rpm;
+    }
+    let scale = 10_f64.powi(DIGITS - 1 - rpm.abs().log10().floor() as i32);
+    let rounded = (rpm * scale).round() / scale;
+    if rounded.is_finite() { rounded } else { rpm }
+}
+
+/// Number of decimal digits that a conversion and its inverse keep.
+const DIGITS: i32 = 15;
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// 6800 rpm came back as 6799.999999999999.
+    #[test]
+    fn a_typed_speed_comes_back_as_typed() {
+        for tenths in 0..200_000 {
+            let typed = f64::from(tenths) / 10.0;
+            assert_eq!(rpm(rad_per_s(typed)), typed);
+        }
+        for typed in [-1e-3, 2400.264, 41_145.312_5, f64::INFINITY] {
+            assert_eq!(rpm(rad_per_s(typed)), typed);
+        }
+    }
 }

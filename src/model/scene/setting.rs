@@ -96,7 +96,8 @@ fn is_word(schema: &Value, pointer: &str) -> bool {
 ///
 /// The decimal mark is a point or a comma, and `1/8 in` is a fraction. A mark before three digits may separate
 /// thousands instead: a comma there is refused unless the decimal number alone is usual, a point if the whole number
-/// alone is usual, as in `1.800` for `operating_rpm`.
+/// alone is usual, as in `1.800` for `operating_rpm`. A comma before more digits, or between two usual numbers, as in `2400,640`,
+/// may separate two numbers and is refused, too.
 ///
 /// # Errors
 /// [`RefusedValue`] if scenes have no such number, or the text is no number in its unit.
@@ -116,6 +117,26 @@ pub fn number_in(key: &str, unit: &str, text: &str) -> Result<f64, RefusedValue>
         usual: (f64::NEG_INFINITY, f64::INFINITY),
     };
     reading.number(text)
+}
+
+/// Parses the numbers of a list where several are allowed: `2400,2640` and `2400, 2640 rpm` are two, `2400,5` is one number with a
+/// decimal comma, because 5 is no usual number at the path.
+///
+/// # Errors
+/// [`RefusedValue`] as for [`number_of`]. `key` names the numbers in the error.
+pub fn numbers_of(key: &str, path: &str, text: &str) -> Result<Vec<f64>, RefusedValue> {
+    let reading = Reading {
+        key,
+        ..Reading::of(path)?
+    };
+    let parts: Vec<&str> = text.split(',').collect();
+    let as_list: Result<Vec<f64>, _> = parts.iter().map(|part| reading.number(part)).collect();
+    match as_list {
+        Ok(list) if parts.len() > 1 && list.iter().all(|value| reading.is_usual(*value)) => {
+            Ok(list)
+        }
+        _ => Ok(vec![reading.number(text)?]),
+    }
 }
 
 /// Units and usual range by which the text of a number is read.
@@ -148,6 +169,16 @@ impl<'a> Reading<'a> {
             unit_left_out,
             ..self
         }
+    }
+
+    /// The same number under another name in its errors.
+    #[cfg(feature = "cli")]
+    pub fn named(self, key: &'a str) -> Self {
+        Reading { key, ..self }
+    }
+
+    fn is_usual(&self, value: f64) -> bool {
+        (self.usual.0..=self.usual.1).contains(&value)
     }
 
     /// Parses the number, in the unit of the result.
@@ -190,10 +221,22 @@ impl<'a> Reading<'a> {
             .ok_or_else(|| refused("give a unit of this quantity, or leave the unit out"))?;
         let in_key = |value| product(value, given.factor, own.factor);
         let value = in_key(decimal / below);
+        if let Some([first, second]) = as_two(digits) {
+            let are_usual = [first, second]
+                .iter()
+                .all(|one| self.is_usual(in_key(one / below)));
+            if second_digits(digits) > GROUP || are_usual {
+                let either = format!("{decimal}{rest}, or the two numbers {first} and {second}");
+                return Err(not(
+                    either,
+                    "write the one number with a point, or give each number for itself",
+                ));
+            }
+        }
         let Some(whole) = in_thousands(digits) else {
             return Ok(value);
         };
-        let is_usual = |value: f64| (self.usual.0..=self.usual.1).contains(&value);
+        let is_usual = |value: f64| self.is_usual(value);
         let is_whole_usual = is_usual(in_key(whole / below));
         let is_decimal = if digits.contains(',') {
             is_usual(value) && !is_whole_usual
@@ -244,6 +287,30 @@ fn over(text: &str) -> Option<(f64, &str)> {
     let (digits, unit) = below.split_at(end_of_number(below));
     let denominator = digits.parse().ok().filter(|below| *below > 0.0)?;
     Some((denominator, unit.trim()))
+}
+
+/// Number of digits of a group of thousands.
+const GROUP: usize = 3;
+
+/// Number of digits behind the comma.
+fn second_digits(digits: &str) -> usize {
+    digits.split_once(',').map_or(0, |(_, second)| second.len())
+}
+
+/// The two numbers that a comma may separate, if more than three digits are before or behind it, at least three behind it, which do not
+/// begin with a zero: 2400 and 640 for `2400,640`, 2 and 4000 for `2,4000`.
+fn as_two(digits: &str) -> Option<[f64; 2]> {
+    let (first, second) = digits.split_once(',')?;
+    let before = first.trim_start_matches(['+', '-']);
+    let is_long = before.len() > GROUP || second.len() > GROUP;
+    let is_list = is_long && second.len() >= GROUP && !second.starts_with('0');
+    let is_whole = [before, second]
+        .iter()
+        .all(|part| part.bytes().all(|c| c.is_ascii_digit()));
+    if !(is_list && is_whole) {
+        return None;
+    }
+    Some([first.parse().ok()?, second.parse().ok()?])
 }
 
 /// The number without the mark that may separate thousands: 1800 for `1.800` and `1,800`.
@@ -498,7 +565,55 @@ mod tests {
             ..Reading::of("blade.thickness_m").unwrap()
         };
         assert_eq!(thickness.number("2.6"), Ok(0.0026));
+        for (path, text, either) in [
+            (
+                "operating_rpm",
+                "2400,2640",
+                "2400.264, or the two numbers 2400 and 2640",
+            ),
+            (
+                "operating_rpm",
+                "2,4000 rpm",
+                "2.4 rpm, or the two numbers 2 and 4000",
+            ),
+            (
+                "operating_rpm",
+                "2400,640",
+                "2400.64, or the two numbers 2400 and 640",
+            ),
+            (
+                "blade.thickness_m",
+                "2,6500mm",
+                "2.65mm, or the two numbers 2 and 6500",
+            ),
+            ("operating_rpm", "3.000", "3000 or 3"),
+        ] {
+            assert_eq!(number_of(path, text).unwrap_err().allowed, either, "{text}");
+        }
+        for (path, text, value) in [
+            ("blade.thickness_m", "0,0026", 0.0026),
+            ("operating_rpm", "2400,5", 2400.5),
+            ("guides[0].angle_deg", "225,25", 225.25),
+        ] {
+            assert_eq!(number_of(path, text), Ok(value), "{text}");
+        }
         assert_eq!(thickness.number("1/8 in"), Ok(0.003_175));
+    }
+
+    #[test]
+    fn a_list_where_several_numbers_are_allowed_is_a_list() {
+        let read = |text: &str| numbers_of("it", "operating_rpm", text);
+        for (text, values) in [
+            ("2400,2640", &[2400.0, 2640.0][..]),
+            ("1800, 40rev/s,2800.5", &[1800.0, 2400.0, 2800.5]),
+            ("2400", &[2400.0]),
+            ("2400,5", &[2400.5]),
+        ] {
+            assert_eq!(read(text).unwrap(), values, "{text}");
+        }
+        for text in ["2,4000", "1,800", "", "2400,fast"] {
+            assert!(read(text).is_err(), "{text}");
+        }
     }
 
     #[test]
