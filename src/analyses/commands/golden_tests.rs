@@ -267,3 +267,62 @@ fn every_report_of_one_saw_begins_with_the_same_keys() {
         assert_eq!(keys, FIRST, "{}", command.name);
     }
 }
+
+/// Paths of the lists of a report, one for each key: in a list of blocks the first and the last block.
+fn lists(value: &Value, path: String, found: &mut Vec<String>) {
+    match value {
+        Value::Array(items) => {
+            if !items.is_empty() && !path.starts_with("/scene") {
+                found.push(path.clone());
+            }
+            let last = items.len().saturating_sub(1);
+            for (k, item) in items.iter().enumerate() {
+                if k == 0 || k == last {
+                    lists(item, format!("{path}/{k}"), found);
+                }
+            }
+        }
+        Value::Object(entries) => {
+            for (key, entry) in entries {
+                lists(entry, format!("{path}/{key}"), found);
+            }
+        }
+        _ => (),
+    }
+}
+
+/// A report is input, too: with any of its lists shortened it is refused, or read, but no face panics.
+#[test]
+fn reports_with_a_shortened_list_are_refused_or_read() {
+    let panics: BTreeSet<String> = cases()
+        .into_par_iter()
+        .flat_map(|name| {
+            let path = Path::new(FOLDER).join(format!("reports/{name}.json"));
+            let text = std::fs::read_to_string(path).unwrap();
+            let whole: Value = serde_json::from_str(&text).unwrap();
+            let (command, _) = name.split_once('-').unwrap();
+            let command = Command::named(command).unwrap();
+            let mut paths = Vec::new();
+            lists(&whole, String::new(), &mut paths);
+            let panicking = paths.into_iter().filter_map(|path| {
+                let mut changed = whole.clone();
+                changed.pointer_mut(&path)?.as_array_mut()?.pop();
+                let Ok(report) = command.read(&changed.to_string()) else {
+                    return None;
+                };
+                let all = std::panic::AssertUnwindSafe(|| {
+                    report.text(true);
+                    report.html();
+                    for [png, _] in command.figures {
+                        report.chart(png.trim_end_matches(".png"));
+                    }
+                    report.figures().len()
+                });
+                let found = std::panic::catch_unwind(all);
+                found.err().map(|_| format!("{name}: {path}"))
+            });
+            panicking.collect::<Vec<_>>()
+        })
+        .collect();
+    assert!(panics.is_empty(), "{panics:#?}");
+}

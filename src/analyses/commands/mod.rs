@@ -6,11 +6,13 @@
 mod arguments;
 #[cfg(test)]
 mod golden_tests;
+mod list_lengths;
 
 pub use arguments::{Argument, ArgumentKind, CALLS, Call};
 
 use schemars::JsonSchema;
 use schemars::generate::SchemaSettings;
+use serde::de::{DeserializeOwned, Error};
 use serde_json::Value;
 
 use super::campbell::{self, CampbellView, ModeShape, Report};
@@ -125,6 +127,16 @@ pub trait CommandReport {
     }
 }
 
+/// Reads a report whose lists have the lengths that belong together.
+///
+/// # Errors
+/// Error of serde_json if the text is no such report.
+pub(crate) fn read<T: DeserializeOwned>(json: &str) -> serde_json::Result<T> {
+    let report = serde_json::from_str(json)?;
+    list_lengths::check(&serde_json::from_str(json)?).map_err(serde_json::Error::custom)?;
+    Ok(report)
+}
+
 /// The JSON schema of each report, by the command that writes it; `modes` is that of the list of modes at one
 /// speed.
 pub fn json_schema() -> Value {
@@ -166,7 +178,7 @@ macro_rules! commands {
                 name: $command,
                 file: $file,
                 figures: &[$([concat!($name, ".png"), concat!($name, ".svg")]),*],
-                read: |json| Ok(Box::new(serde_json::from_str::<Self>(json)?)),
+                read: |json| Ok(Box::new(read::<Self>(json)?)),
                 schema: schema::<Self>,
             };
 

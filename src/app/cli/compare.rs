@@ -3,6 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use crate::analyses::campbell::Report;
+use crate::analyses::commands;
 use crate::analyses::compare::{LabelledSaw, Saw, compare};
 use crate::model::scene::Scene;
 use crate::page::text::{Kind, OtherEncodings};
@@ -96,7 +97,7 @@ fn read(path: &Path, changes: &Changes) -> anyhow::Result<Saw> {
     let text = read_text(path, REPORT)?;
     // Reports have the key `campbell`, which scenes do not have.
     if text.contains("\"campbell\"") {
-        let report: Report = serde_json::from_str(&text).map_err(|error| {
+        let report: Report = commands::read(&text).map_err(|error| {
             refused(
                 path,
                 anyhow!(
