@@ -104,6 +104,8 @@ pub fn place(
         moving: freed,
         idle: without_effect,
     } = parted(scene, &all);
+    // The saws of a cancelled search do not differ.
+    Cancellation::current().check()?;
     if freed.is_empty() {
         return Err(PlaceError::NothingFree);
     }

@@ -4,7 +4,7 @@ use crate::analyses::gap::GapError;
 use crate::model::plate::Resolution;
 use crate::model::scene::{Scene, SpeedRange, rpm};
 use crate::stability::{
-    Certificate, Evidence, Instability, flutter_onsets, resolved, search_bands,
+    Certificate, Evidence, Instability, StabilityState, flutter_onsets, resolved, search_bands,
 };
 
 use super::deviation::linear_deviation_m;
@@ -18,8 +18,8 @@ pub struct Computed {
     pub value_rad_per_s: f64,
     /// Sum of the shares by which limits are missed; zero if they are kept.
     short: f64,
-    /// Deflection at the cut at the operating speed: that of the limit, or with linear guides on the basis of the search. `None` in a
-    /// band, and where it is unknown.
+    /// Deflection at the cut at the operating speed: that of the limit, or with linear guides on the basis of the search. `None`
+    /// unless the saw is stable there, and where it is unknown.
     pub deviation_m: Option<f64>,
     /// All bands of the sweep.
     pub bands: Vec<Instability>,
@@ -99,10 +99,9 @@ impl Question {
             None => flutter.unwrap_or(self.range.to_rad_per_s),
             Some(_) => window.map_or(0.0, |range| range.width()),
         };
-        let is_in_band = |speed: f64| bands.iter().any(|band| band.range().contains(speed));
         let is_stable = scene
             .operating_rad_per_s()
-            .is_some_and(|speed| !is_in_band(speed));
+            .is_some_and(|speed| evidence.verdict(speed).state == StabilityState::Stable);
         let short = too_low + beyond;
         Ok(Computed {
             outcome: Outcome {

@@ -15,6 +15,7 @@ use std::sync::{Mutex, MutexGuard, PoisonError};
 use rayon::prelude::*;
 
 use crate::model::scene::{Freed, SceneFile, rpm, scene_at, spread};
+use crate::modes::Cancellation;
 
 use super::demands::Step;
 use super::outcome::{Computed, Question, REFUSED};
@@ -124,7 +125,7 @@ impl<'a> Search<'a> {
         self.known.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
-    /// Result of the saw with the given shares; `None` if it is refused or cannot be analysed.
+    /// Result of the saw with the given shares; `None` if it is refused or cannot be analysed, and if the search is cancelled.
     pub fn computed(&self, shares: &[f64]) -> Option<Computed> {
         let key: Vec<u64> = shares.iter().map(|share| share.to_bits()).collect();
         let known = self.known().get(&key).cloned();
@@ -133,7 +134,10 @@ impl<'a> Search<'a> {
                 Ok(scene) => self.question.ask(&scene).map_err(|e| Some(e.to_string())),
                 Err(_) => Err(None),
             };
-            self.known().insert(key, found.clone());
+            // A saw whose computation was cancelled has no result, and did not fail.
+            if !Cancellation::current().is_cancelled() {
+                self.known().insert(key, found.clone());
+            }
             found
         });
         found.ok()
