@@ -4,6 +4,7 @@
 //! [`DeflectReport`](deflect::DeflectReport), in the units of its JSON. States between (matrices, coordinates)
 //! are private to the folder.
 
+pub mod board_deviation;
 pub mod campbell;
 mod changed;
 pub mod check;

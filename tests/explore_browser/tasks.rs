@@ -121,7 +121,7 @@ fn a_cheap_answer_starts_by_itself() {
         page.open_tab_of("response").await;
         let told = "document.querySelector('#panel-response pre')?.textContent ?? ''";
         page.wait(&format!(
-            "({told}).includes('Sawing deviation at 3800 rpm')"
+            "({told}).includes('Deflection at the cut at 3800 rpm under 1 N')"
         ))
         .await;
         let unbounded =
@@ -130,7 +130,7 @@ fn a_cheap_answer_starts_by_itself() {
         page.script("sawflutter.state.set('operating_rpm', 3700)")
             .await;
         page.wait(&format!(
-            "({told}).includes('Sawing deviation at 3700 rpm')"
+            "({told}).includes('Deflection at the cut at 3700 rpm under 1 N')"
         ))
         .await;
         page.close().await;

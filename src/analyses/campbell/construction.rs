@@ -15,6 +15,7 @@ use super::membrane::BladeStress;
 use super::modes::{HarmonicShape, HarmonicShare, RestMode};
 use super::remarks::{terms, warnings};
 use super::speeds::{CriticalSpeed, InstabilityBand, OperatingPoint};
+use crate::analyses::board_deviation::BoardDeviation;
 use crate::analyses::check::side_force_factor;
 use crate::model::plate::Plate;
 use crate::model::scene::rpm;
@@ -330,6 +331,7 @@ impl OperatingPoint {
             inside_instability: verdict.band,
             at_critical_rpm: verdict.critical.map(|place| rpm(critical[place])),
             side_force_factor: None,
+            deviation: None,
             undecided_edge_rpm: verdict.undecided.map(|edge| rpm(edge.speed)),
             safe_window_rpm: window.map(|range| range.ends().map(rpm)),
             growth_per_s: None,
@@ -345,6 +347,7 @@ fn operating(analysis: &Analysis, speed_rad_per_s: f64) -> OperatingPoint {
         growth_per_s: fastest.map(|lambda| lambda.re),
         frequency_hz: fastest.map(|lambda| lambda.im.abs() / TAU),
         side_force_factor: side_force_factor(analysis, speed_rad_per_s),
+        deviation: Some(BoardDeviation::of(analysis, speed_rad_per_s)),
         ..OperatingPoint::from_evidence(&analysis.evidence(&critical), speed_rad_per_s)
     }
 }

@@ -194,6 +194,7 @@ mod tests {
             inside_instability: None,
             at_critical_rpm: None,
             side_force_factor: None,
+            deviation: None,
             undecided_edge_rpm: None,
             safe_window_rpm: None,
             growth_per_s: None,

@@ -3,7 +3,7 @@
 use std::f64::consts::TAU;
 
 use crate::model::plate::{MembraneSource, Plate};
-use crate::model::scene::{Blade, Bore, Guide, PadLaw, Scene, rpm};
+use crate::model::scene::{Blade, Bore, Guide, PadLaw, Scene, SceneFile, rpm};
 use crate::modes::DescribedMode;
 use crate::page::text::{shown, shown_to};
 use crate::stability::{Analysis, CHARTED, CRITICAL_MARGIN, is_cut_short, usual_end};
@@ -24,15 +24,20 @@ pub fn near_critical(critical_rpm: f64) -> String {
 
 /// How far a side force at the cut deflects the blade at a speed, from the factor of
 /// [`OperatingPoint::side_force_factor`](super::OperatingPoint::side_force_factor); `None` without a factor.
-pub fn side_force_in_words(rpm: f64, factor: Option<f64>) -> Option<String> {
+pub fn side_force_in_words(rpm: f64, factor: Option<f64>, scene: &SceneFile) -> Option<String> {
     let factor = factor?;
+    let touching = if scene.has_gaps() {
+        ", with guides that touch it"
+    } else {
+        ""
+    };
     let direction = if factor < 0.0 {
         ", in the opposite direction"
     } else {
         ""
     };
     Some(format!(
-        "at {} rpm a side force at the cut deflects the blade {} times as far as at rest{direction}",
+        "at {} rpm a side force at the cut deflects the blade {} times as far as at rest{direction}{touching}",
         shown_to(6, rpm),
         shown_to(2, factor.abs())
     ))

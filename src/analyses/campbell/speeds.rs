@@ -3,6 +3,7 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
+use crate::analyses::board_deviation::BoardDeviation;
 use crate::stability::{InstabilityKind, StabilityState};
 
 /// A speed at which a wave stands still in space.
@@ -106,6 +107,9 @@ pub struct OperatingPoint {
     /// close to a critical speed that its error decides.
     #[serde(default)]
     pub side_force_factor: Option<f64>,
+    /// Deflection of the rim at the cut under the constant lateral force of the scene at the operating speed.
+    #[serde(default)]
+    pub deviation: Option<BoardDeviation>,
     /// The window without instability: speeds of the sweep around the operating speed at which no instability
     /// counts, and which are at least 5 % from critical speeds; null if the saw is unstable or at a critical
     /// speed.

@@ -24,6 +24,7 @@ mod static_deflection;
 
 use faer::Scale;
 
+use crate::analyses::board_deviation::BoardDeviation;
 use crate::analyses::campbell::{
     InstabilityBand, Numbered, add_amplitudes, lifting_off, near_critical,
 };
@@ -128,6 +129,7 @@ pub fn check(scene: &Scene, limits: &Limits) -> Result<CheckReport, CheckError> 
             .map(|bending| bending.rim_stiffness())
             .unwrap_or_default(),
         side_force_factor: side_force_factor(analysis, operating),
+        deviation: Some(BoardDeviation::of(analysis, operating)),
         rim_speed_m_per_s: operating * scene.blade().outer_radius_m,
         max_rim_m_per_s: limits.max_rim_m_per_s,
         max_amplitude_m: limits.max_amplitude_m,

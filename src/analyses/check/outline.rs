@@ -26,8 +26,15 @@ pub fn outline(report: &CheckReport) -> Outline {
         text.sentence(format!("{word} {name}: {finding}"));
     }
     text.sentence(report.rim_stiffness_in_words());
-    if let Some(words) = side_force_in_words(report.operating_rpm, report.side_force_factor) {
+    if let Some(words) = side_force_in_words(
+        report.operating_rpm,
+        report.side_force_factor,
+        &report.scene,
+    ) {
         text.sentence(words);
+    }
+    if let Some(deviation) = &report.deviation {
+        text.sentence(deviation.in_words());
     }
     text.remarks("Warning", &report.warnings);
     text

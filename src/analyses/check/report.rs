@@ -3,6 +3,7 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
+use crate::analyses::board_deviation::BoardDeviation;
 use crate::analyses::campbell::InstabilityBand;
 use crate::model::scene::SceneFile;
 
@@ -49,6 +50,9 @@ pub struct CheckReport {
     /// `analyze`.
     #[serde(default)]
     pub side_force_factor: Option<f64>,
+    /// Deflection of this point under the constant lateral force of the scene at the operating speed.
+    #[serde(default)]
+    pub deviation: Option<BoardDeviation>,
     /// Lateral stiffness of this point over the speed.
     pub rim_stiffness: RimStiffness,
     /// Rim speed at the operating speed.
@@ -118,6 +122,11 @@ impl CheckReport {
             Some(stiffness) => format!("{:.1} N/mm at the operating speed", 1e-3 * stiffness),
             None => "none above the first critical speed".to_owned(),
         };
-        format!("stiffness of the rim at the cut: {at_rest:.1} N/mm at rest, {operating}")
+        let touching = if self.scene.has_gaps() {
+            ", with guides that touch the blade"
+        } else {
+            ""
+        };
+        format!("stiffness of the rim at the cut{touching}: {at_rest:.1} N/mm at rest, {operating}")
     }
 }

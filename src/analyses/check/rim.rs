@@ -49,16 +49,7 @@ pub(crate) fn rim_stiffness_at_rest_n_per_m(analysis: &Analysis) -> Option<f64> 
 /// Only for a stable saw; `None` elsewhere, if rigid motions are free, and if the estimated error of a critical speed within 5 % is
 /// unknown, or is more than a tenth of the distance from it.
 pub(crate) fn side_force_factor(analysis: &Analysis, speed_rad_per_s: f64) -> Option<f64> {
-    let verdict = analysis.verdict(speed_rad_per_s);
-    let near = verdict
-        .critical
-        .map(|place| &analysis.model.critical[place]);
-    let judged = Judged {
-        speed_rad_per_s,
-        state: verdict.state,
-        critical_rad_per_s: near.map(|critical| critical.speed_rad_per_s),
-        estimated_relative_error: analysis.estimated_relative_error,
-    };
+    let judged = Judged::of(analysis, speed_rad_per_s);
     judged.side_force_factor(&analysis.scene, analysis.model.plate.resolution)
 }
 
@@ -73,16 +64,46 @@ pub(crate) struct Judged {
 }
 
 impl Judged {
+    /// The saw of an analysis at a speed.
+    pub fn of(analysis: &Analysis, speed_rad_per_s: f64) -> Self {
+        let verdict = analysis.verdict(speed_rad_per_s);
+        let near = verdict
+            .critical
+            .map(|place| &analysis.model.critical[place]);
+        Judged {
+            speed_rad_per_s,
+            state: verdict.state,
+            critical_rad_per_s: near.map(|critical| critical.speed_rad_per_s),
+            estimated_relative_error: analysis.estimated_relative_error,
+        }
+    }
+
+    /// Reason for which the saw has no steady deflection; `None` if it is stable.
+    pub fn not_stable(&self) -> Option<&'static str> {
+        match self.state {
+            StabilityState::Stable => None,
+            StabilityState::Divergence | StabilityState::Flutter => Some("the saw is unstable"),
+            StabilityState::TooClose => Some("it is too close to call whether the saw is stable"),
+            StabilityState::OutsideSweep => Some("the sweep does not include the speed"),
+        }
+    }
+
+    /// Reason for which the saw has no steady deflection with linear guides, or none that is known accurately; `None` if it has.
+    pub fn no_answer(&self) -> Option<&'static str> {
+        if let Some(reason) = self.not_stable() {
+            return Some(reason);
+        }
+        let critical = self.critical_rad_per_s?;
+        let distance = (self.speed_rad_per_s / critical - 1.0).abs();
+        let error = self.estimated_relative_error.unwrap_or(f64::INFINITY);
+        (error > DISTANCE_ERROR * distance)
+            .then_some("a critical speed is so close that its estimated error decides")
+    }
+
     /// The number of [`side_force_factor`] for the saw of a scene that was analysed on a basis.
     pub fn side_force_factor(&self, scene: &Scene, analysed_on: Resolution) -> Option<f64> {
-        if self.state != StabilityState::Stable {
+        if self.no_answer().is_some() {
             return None;
-        }
-        if let Some(critical) = self.critical_rad_per_s {
-            let distance = (self.speed_rad_per_s / critical - 1.0).abs();
-            if self.estimated_relative_error? > DISTANCE_ERROR * distance {
-                return None;
-            }
         }
         let force = side_force(scene, analysed_on)?;
         Some(force.compliance_m_per_n(self.speed_rad_per_s)? / force.compliance_m_per_n(0.0)?)

@@ -26,6 +26,12 @@ pub fn outline(report: &CompareReport) -> Outline {
         }
     }
     text.table(table);
+    for saw in &report.saws {
+        let operating = saw.operating.as_ref();
+        if let Some(deviation) = operating.and_then(|at| at.deviation.as_ref()) {
+            text.sentence(format!("{}: {}", saw.label, deviation.in_words()));
+        }
+    }
     differences(&mut text, report);
     for saw in &report.saws {
         for warning in &saw.warnings {

@@ -1,4 +1,4 @@
-//! Deflection of a blade at rest under a force at a point, and its error on a basis.
+//! Deflection of a blade under a force at a point or on some points, and its error on a basis.
 
 use faer::Col;
 use faer::linalg::solvers::Solve;
@@ -6,38 +6,40 @@ use faer::linalg::solvers::Solve;
 use crate::model::plate::Plate;
 use crate::model::scene::{Polar, Scene};
 use crate::model::system::GyroscopicSystem;
-use crate::motion::transient::at_point;
 use crate::stability::ahead;
 
-/// A force at a point fixed in space while the saw turns.
+/// A force fixed in space while the saw turns, at a point or on some points.
 pub(crate) struct PointLoad {
     system: GyroscopicSystem,
-    /// φ, the basis functions at the point.
-    point: Col<f64>,
+    /// φ, the load of one newton: the basis functions at the point, or their mean over the points.
+    load: Col<f64>,
 }
 
 impl PointLoad {
     /// A force at a place, a radius in m and an angle in rad; `None` if rigid motions are free.
     pub fn new(plate: &Plate, place: Polar) -> Option<Self> {
+        Self::on(plate, &[(place, 1.0)])
+    }
+
+    /// A force on some places, each with its share of the whole; `None` if rigid motions are free.
+    pub fn on(plate: &Plate, places: &[(Polar, f64)]) -> Option<Self> {
         let system = GyroscopicSystem::of_plate(plate);
-        let point = at_point(plate, place);
-        system
-            .free_rigid
-            .is_empty()
-            .then_some(PointLoad { system, point })
+        let load = plate.load_at(places);
+        let is_held = system.free_rigid.is_empty();
+        is_held.then_some(PointLoad { system, load })
     }
 
     /// K(Ω)⁻¹ φ, coordinates of the deflection for a force of 1 N; `None` where K(Ω) is singular.
     pub fn deflected(&self, speed_rad_per_s: f64) -> Option<Col<f64>> {
         let factor = self.system.stiffness_at(speed_rad_per_s).partial_piv_lu();
-        let deflected = factor.solve(&self.point);
+        let deflected = factor.solve(&self.load);
         let is_finite = deflected.iter().all(|q| q.is_finite());
         is_finite.then_some(deflected)
     }
 
-    /// φᵀ K(Ω)⁻¹ φ, deflection over force at the point; `None` where K(Ω) is singular.
+    /// φᵀ K(Ω)⁻¹ φ, deflection over force at the point, or the mean over the points; `None` where K(Ω) is singular.
     pub fn compliance_m_per_n(&self, speed_rad_per_s: f64) -> Option<f64> {
-        Some(self.point.transpose() * self.deflected(speed_rad_per_s)?)
+        Some(self.load.transpose() * self.deflected(speed_rad_per_s)?)
     }
 }
 

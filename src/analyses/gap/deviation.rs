@@ -24,7 +24,7 @@ const ESTIMATED_EVERY: usize = 3;
 /// Number of speeds of the map over gap and speed, from rest to the end of the sweep.
 const SPEEDS: usize = 13;
 /// Number of modes at rest in the basis.
-pub(super) const MODES: usize = 24;
+pub(crate) const MODES: usize = 24;
 /// Number of modes at rest in the larger basis, with which the deflections are compared.
 const MORE_MODES: usize = 36;
 
@@ -46,7 +46,7 @@ pub(super) fn deviation_map(
     limit_m: Option<f64>,
 ) -> Result<DeviationMap, GapError> {
     let scene = &analysis.scene;
-    let force_n = scene.file().side_force_n();
+    let force_n = scene.constant_force_at(rpm).force_n;
     let end_rpm = crate::model::scene::rpm(analysis.range_rad_per_s.to_rad_per_s);
     let blade_of = |scene: &Scene, modes: usize| {
         let resolution = analysis.model.plate.resolution;

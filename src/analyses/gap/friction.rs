@@ -64,7 +64,8 @@ impl Loop<'_> {
             let Some(blade) = unless_buckled(blade.map_err(GapError::from))? else {
                 return Ok(None);
             };
-            let (deviation, contacts) = blade.with_contacts(scene.file().side_force_n(), rpm)?;
+            let (deviation, contacts) =
+                blade.with_contacts(scene.constant_force_at(rpm).force_n, rpm)?;
             work.advance();
             let Some(deviation) = deviation else {
                 return Ok(None);

@@ -1,11 +1,11 @@
 //! Numbers of one saw with guides with a gap, for studies and placements of many.
 
+use crate::analyses::board_deviation::pressed;
 use crate::model::plate::Resolution;
 use crate::model::scene::{RefusedValue, Scene, rpm, speed_rad_per_s};
-use crate::motion::stretched_blade::{Deviation, PressedBlade};
+use crate::motion::stretched_blade::Deviation;
 
 use super::amplitude::{OscillatingSaw, first_critical};
-use super::deviation::MODES;
 use super::error::GapError;
 use super::options::Options;
 
@@ -103,8 +103,7 @@ impl GapCase {
         scene: &Scene,
         resolution: Resolution,
     ) -> Result<Option<Deviation>, GapError> {
-        let pressed = PressedBlade::new(scene, resolution, self.rpm, MODES)?;
-        Ok(pressed.deviation(scene.file().side_force_n(), self.rpm)?)
+        Ok(pressed(scene, resolution, self.rpm)?)
     }
 
     /// The numbers of a saw on a basis.

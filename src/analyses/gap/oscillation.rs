@@ -92,7 +92,7 @@ pub(super) fn oscillation(
     };
     let force = oscillators.force;
     Ok(Oscillation {
-        force_n: scene.file().side_force_n(),
+        force_n: scene.constant_force().force_n,
         oscillating_force_n: force.map_or(0.0, |force| force.amplitude_n),
         oscillating_order: force.map_or(0, |force| force.order),
         lines: (0..HARMONICS).map(line).collect(),

@@ -5,12 +5,12 @@
 
 use rayon::prelude::*;
 
-use crate::analyses::check::point_load_plate;
+use crate::analyses::board_deviation::sawing_plate;
 use crate::model::plate::Resolution;
 use crate::model::scene::scene_at;
 
 use super::choice::Weighed;
-use super::deviation::linear_deviation_m;
+use super::deviation::operating_deviation_m;
 use super::report::FrontSaw;
 use super::search::{Search, Tried};
 
@@ -67,7 +67,9 @@ fn weighed(search: &Search<'_>, saw: &Weighed, resolution: Resolution) -> Option
         Some(limited) => limited,
         None => {
             let scene = scene_at(search.scene, search.freed, &saw.shares).ok()?;
-            linear_deviation_m(&scene, &point_load_plate(&scene, resolution))?
+            let rpm = scene.file().operating_rpm?;
+            let plate = sawing_plate(&scene, resolution, rpm);
+            operating_deviation_m(&scene, resolution, &plate)?
         }
     };
     Some(FrontSaw {

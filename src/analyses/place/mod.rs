@@ -150,7 +150,7 @@ pub fn place(
             .gap
             .and_then(|gap| gap.max_deflection_m)
             .or(front.first().map(|saw| saw.deflection_m))
-            .map(|_| scene.file().side_force_n()),
+            .map(|_| scene.constant_force().force_n),
         kept: best.neighbours.keep_limit(),
         improved,
         from_rpm: rpm(question.range.from_rad_per_s),

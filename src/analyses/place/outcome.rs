@@ -7,7 +7,7 @@ use crate::stability::{
     Certificate, Evidence, Instability, StabilityState, flutter_onsets, resolved, search_bands,
 };
 
-use super::deviation::linear_deviation_m;
+use super::deviation::operating_deviation_m;
 use super::{Demands, Outcome, Tolerances};
 
 /// A saw of a search.
@@ -18,7 +18,7 @@ pub struct Computed {
     pub value_rad_per_s: f64,
     /// Sum of the shares by which limits are missed; zero if they are kept.
     short: f64,
-    /// Deflection at the cut at the operating speed: that of the limit, or with linear guides on the basis of the search. `None`
+    /// Deflection at the cut at the operating speed: that of the limit, or on the basis of the search. `None`
     /// unless the saw is stable there, and where it is unknown.
     pub deviation_m: Option<f64>,
     /// All bands of the sweep.
@@ -78,7 +78,7 @@ impl Question {
             }
         };
         let deviation_m = match demands.gap {
-            None => linear_deviation_m(scene, &saw.plate),
+            None => operating_deviation_m(scene, self.resolution, &saw.plate),
             Some(_) => deflection_m,
         };
         let found = search_bands(saw, critical, self.range)?;

@@ -52,7 +52,7 @@ pub struct DesignReport {
     pub customer: Option<String>,
     /// Date of the report as typed; null if not given.
     pub date: Option<String>,
-    /// Analysis of the idling saw, with sensitivities.
+    /// Analysis of the idling saw, with sensitivities; the deviation of the board is that of the cut, if there is one.
     pub idling: Report,
     /// Analysis under the forces of the cut, with sensitivities; null for a scene without a cut.
     pub in_cut: Option<Report>,
@@ -87,7 +87,7 @@ pub fn report(scene: &Scene, options: &Options) -> Result<DesignReport, DesignEr
         report.sensitivities = Sensitivity::all(&analysis)?;
         Ok((analysis, report))
     };
-    let (analysis, idling) = analysed(&still)?;
+    let (analysis, mut idling) = analysed(&still)?;
     let cut = cutting.as_ref().map(analysed).transpose()?;
     let deciding_scene = cutting.as_ref().unwrap_or(&still);
     let (deciding_analysis, deciding) = match &cut {
@@ -127,6 +127,12 @@ pub fn report(scene: &Scene, options: &Options) -> Result<DesignReport, DesignEr
         if !warnings.contains(warning) && !told.contains(warning) {
             warnings.push(warning.clone());
         }
+    }
+    if cut.is_some()
+        && let Some(operating) = idling.operating.as_mut()
+    {
+        // The board is sawn in the cut.
+        operating.deviation = None;
     }
     Ok(DesignReport {
         sawflutter: idling.sawflutter.clone(),

@@ -1,11 +1,12 @@
 //! The text of a report for a decision.
 
 use super::{Change, DecisiveSpeed, DesignReport, LoadedPad};
+use crate::analyses::board_deviation::BoardDeviation;
 use crate::analyses::campbell::{Report, answer, checks};
 use crate::analyses::{gap, response};
-use crate::model::scene::Quantity;
+use crate::model::scene::{ForceCause, Quantity};
 use crate::page::outline::{Column, FORCE, Fact, Outline, SPEED, Table, Value};
-use crate::page::text::shown;
+use crate::page::text::{shown, shown_to};
 
 pub fn outline(report: &DesignReport) -> Outline {
     let mut text = Outline::default();
@@ -23,7 +24,10 @@ pub fn outline(report: &DesignReport) -> Outline {
         text.heading(&report.scene.name, &analysis.condition);
         text.extend(answer(analysis));
     }
-    text.sentence(response::verdict(&report.response));
+    let sawing = response::verdict(&report.response);
+    if deviations(report).all(|deviation| deviation.in_words() != sawing) {
+        text.sentence(sawing);
+    }
     text.table(speeds(report));
     text.table(changes(report));
     text.extend(pads(report));
@@ -55,7 +59,7 @@ fn pads(report: &DesignReport) -> Outline {
             .map(|pad| Fact::new(format!("guides[{}]", pad.guide), force(pad)));
         let title = format!(
             "Forces on the pads under {} N at the cut at {rpm:.0} rpm",
-            shown(*side_force_n)
+            shown_to(3, *side_force_n)
         );
         text.facts(title, each.collect::<Vec<_>>());
     }
@@ -65,12 +69,12 @@ fn pads(report: &DesignReport) -> Outline {
 /// What the program took where the scene says nothing.
 fn assumed(report: &DesignReport) -> Outline {
     let scene = &report.scene;
-    let force = scene.side_force.and_then(|force| force.force_n);
+    let is_assumed = report.response.constant_force_cause == Some(ForceCause::Assumed);
     let parts = [
-        force.is_none().then(|| {
+        is_assumed.then(|| {
             format!(
                 "a side force of {} N (side_force.force_n)",
-                shown(scene.side_force_n())
+                shown(report.response.constant_force_n)
             )
         }),
         scene.sweep.is_none().then(|| {
@@ -86,6 +90,11 @@ fn assumed(report: &DesignReport) -> Outline {
         text.sentence(format!("Assumed, not in the scene: {}", parts.join(", ")));
     }
     text
+}
+
+/// The deviations of the board in the answers.
+fn deviations(report: &DesignReport) -> impl Iterator<Item = &BoardDeviation> {
+    conditions(report).filter_map(|report| report.operating.as_ref()?.deviation.as_ref())
 }
 
 fn conditions(report: &DesignReport) -> impl Iterator<Item = &Report> {

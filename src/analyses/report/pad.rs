@@ -3,13 +3,13 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use crate::analyses::check::{point_load_plate, rim_at_cut};
+use crate::analyses::check::point_load_plate;
 use crate::analyses::deflect::PointLoad;
 use crate::model::plate::pad_force;
 use crate::model::scene::rpm;
 use crate::stability::{Analysis, StabilityState};
 
-/// A linear pad under the constant side force of the scene, at the rim at the cut.
+/// A linear pad under the constant lateral force of the scene.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 #[schemars(rename = "LoadedPadEntry")]
@@ -18,7 +18,7 @@ pub struct LoadedPad {
     pub guide: usize,
     /// Speed of the saw.
     pub rpm: f64,
-    /// The side force.
+    /// The lateral force.
     pub side_force_n: f64,
     /// Force of the blade on the pad: positive if the pad is pressed in the direction of the side force.
     pub force_n: f64,
@@ -26,21 +26,25 @@ pub struct LoadedPad {
 
 impl LoadedPad {
     /// The linear pads of a saw at its operating speed, by the stationary deflection of the flat blade: force = stiffness × mean
-    /// deflection over the pad, less that of its head. None unless the saw is stable there and something holds its rigid motions.
+    /// deflection over the pad, less that of its head. None unless the saw is stable there and something holds its rigid motions, and
+    /// none for a saw with a pad that has a gap.
     pub(super) fn all(analysis: &Analysis) -> Vec<Self> {
         let scene = &analysis.scene;
         let Some(speed) = scene.operating_rad_per_s() else {
             return Vec::new();
         };
-        if analysis.verdict(speed).state != StabilityState::Stable {
+        // Where pads have a gap, contact shares the force among all of them, and not their stiffness.
+        let lifts = scene.guides().iter().any(|guide| guide.lifting.is_some());
+        if lifts || analysis.verdict(speed).state != StabilityState::Stable {
             return Vec::new();
         }
         let plate = point_load_plate(&analysis.scene, analysis.model.plate.resolution);
-        let load = PointLoad::new(&plate, rim_at_cut(scene));
+        let force = scene.constant_force();
+        let load = PointLoad::on(&plate, &force.places);
         let Some(deflected) = load.and_then(|load| load.deflected(speed)) else {
             return Vec::new();
         };
-        let side_force_n = scene.file().side_force_n();
+        let side_force_n = force.force_n;
         let linear = scene
             .guides()
             .iter()

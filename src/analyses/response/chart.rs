@@ -2,6 +2,7 @@
 
 use super::report::{FrequencyResponse, ResponseLine, ResponseReport};
 use crate::analyses::campbell::InstabilityKind;
+use crate::model::scene::ForceCause;
 use crate::page::figure::axis::{Spread, extremes};
 use crate::page::figure::chart_data::{AxisData, ChartData, PanelData};
 use crate::page::figure::items::{Band, Item, Line, Points, Role, Shape, Upright, series};
@@ -57,7 +58,7 @@ pub fn chart(report: &ResponseReport) -> ChartData {
     let known = report.board_deviation_m.iter().flatten();
     let board = amplitudes("board, sum", "mm", known.map(|m| 1e3 * m));
     let deviation = series(&report.rpm, &report.board_deviation_m, 1e3);
-    let deviation = Item::Line(Line::new(deviation, Hue::Ink, "deviation of the board"));
+    let deviation = Item::Line(Line::new(deviation, Hue::Ink, deviation_name(report)));
     let in_panel = |share: f64, y: AxisData, items: Vec<Item>, is_first: bool| PanelData {
         share,
         ..PanelData::new(
@@ -86,6 +87,15 @@ pub fn chart(report: &ResponseReport) -> ChartData {
         ],
         columns: 1,
         key: key(report),
+    }
+}
+
+/// Name of the curve of the board, which is that of linear guides.
+fn deviation_name(report: &ResponseReport) -> &'static str {
+    match report.constant_force_cause {
+        _ if report.scene.has_gaps() => "at the cut, with linear guides",
+        Some(ForceCause::Assumed) => "deflection at the cut",
+        _ => "deviation of the board",
     }
 }
 

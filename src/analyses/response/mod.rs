@@ -32,9 +32,12 @@ pub use report::{
 
 use std::f64::consts::TAU;
 
+use crate::analyses::board_deviation::BoardDeviation;
 use crate::analyses::campbell::caution;
 use crate::model::plate::Plate;
-use crate::model::scene::{RefusedValue, Scene, SceneError, USUAL_SIDE_FORCE_N, rad_per_s, rpm};
+use crate::model::scene::{
+    ConstantForce, ForceCause, RefusedValue, Scene, SceneError, rad_per_s, rpm,
+};
 use crate::modes::SpectrumError;
 use crate::motion::steady::{Family, loads};
 use crate::stability::{Analysis, AnalysisError, ahead};
@@ -74,10 +77,11 @@ pub(crate) fn of_analysis(
     options: &Options,
 ) -> Result<ResponseReport, ResponseError> {
     let scene = &analysis.scene;
-    let (force_n, is_assumed) = constant_force_n(scene);
+    let ConstantForce { force_n, cause, .. } = exciting_force(scene);
     let plate = &analysis.model.plate;
     let excitations = |plate| loads(plate, scene, force_n);
     let loads = excitations(plate)?;
+    let of_cut = cause == ForceCause::Cut;
     let range = analysis.range_rad_per_s;
     let within = |speed: &f64| range.contains(*speed);
     let operating = scene.operating_rad_per_s().filter(within);
@@ -102,6 +106,12 @@ pub(crate) fn of_analysis(
         .iter_mut()
         .map(|(load, family, resonances)| solver.line(load, family, &speeds, resonances, &motion))
         .collect::<Result<_, _>>()?;
+    for line in lines
+        .iter_mut()
+        .filter(|line| of_cut && line.cause == Cause::SideForce)
+    {
+        line.name = "lateral force of the cut, static".to_owned();
+    }
     let diagram = analysis.model.complete_to_rad_per_s;
     let is_beyond = |line: &ResponseLine| f64::from(line.order) * range.to_rad_per_s > diagram;
     if lines.iter().any(is_beyond) {
@@ -134,7 +144,9 @@ pub(crate) fn of_analysis(
     let deviation_m = |k: usize| lines.iter().map(|line| line.at_cut_m[k]).sum();
     let board_deviation_m: Vec<Option<f64>> = (0..rpm.len()).map(deviation_m).collect();
     let (probe, chart) = (scene.probe(), analysis.report());
+    let is_assumed = cause == ForceCause::Assumed && force_n != 0.0;
     let assumed = is_assumed.then_some(force_n);
+    let constant = chart.operating.as_ref().and_then(|at| at.deviation.clone());
     let of_chart = caution(&chart).into_iter().chain(chart.warnings).collect();
     Ok(ResponseReport {
         sawflutter: chart.sawflutter,
@@ -151,7 +163,15 @@ pub(crate) fn of_analysis(
         linear_limit_m: solver.limit_m,
         warnings: warnings(scene, assumed, &lines, of_chart),
         instabilities: chart.instabilities,
-        operating: OperatingResponse::new(scene, &motion, &rpm, &lines, &board_deviation_m),
+        operating: OperatingResponse::new(
+            &motion,
+            &rpm,
+            &lines,
+            &board_deviation_m,
+            constant.filter(|_| force_n != 0.0),
+        ),
+        constant_force_n: force_n,
+        constant_force_cause: (force_n != 0.0).then_some(cause),
         rpm,
         lines,
         board_deviation_m,
@@ -173,15 +193,16 @@ impl ResponseLine {
 }
 
 impl OperatingResponse {
-    /// The deflections at the operating speed; `None` if it is not one of the speeds.
+    /// The deflections at the operating speed, of which that under the constant force is `constant`; `None` if it is not one of the
+    /// speeds.
     fn new(
-        scene: &Scene,
         motion: &Motion<'_>,
         rpm: &[f64],
         lines: &[ResponseLine],
         board_deviation_m: &[Option<f64>],
+        constant: Option<BoardDeviation>,
     ) -> Option<Self> {
-        let asked = scene.file().operating_rpm?;
+        let asked = motion.0.scene.file().operating_rpm?;
         // The speeds were converted to rad/s and back, so that they agree with the operating speed only
         // up to rounding.
         let place = rpm
@@ -203,18 +224,31 @@ impl OperatingResponse {
             steady_state,
             rpm: asked,
             amplitude_m: lines.iter().map(|line| line.amplitude_m[place]).collect(),
-            board_deviation_m: board_deviation_m[place],
+            board_deviation_m: match &constant {
+                None => board_deviation_m[place],
+                Some(constant) => {
+                    let moving = lines.iter().filter(|line| line.order > 0);
+                    let amplitudes: Option<f64> = moving.map(|line| line.at_cut_m[place]).sum();
+                    let known = constant.deflection_m.zip(amplitudes);
+                    known.map(|(still_m, moving_m)| still_m + moving_m)
+                }
+            },
+            constant,
         })
     }
 }
 
-/// Constant side force in N that excites the blade of a scene, 0 for none, and whether it is assumed because nothing else does.
-fn constant_force_n(scene: &Scene) -> (f64, bool) {
-    let file = scene.file();
-    let typed = file.side_force.and_then(|typed| typed.force_n);
-    let turning = file.response.is_some_and(|response| response.excites());
-    match typed.unwrap_or(0.0) {
-        0.0 if !turning && scene.oscillating_force().is_none() => (USUAL_SIDE_FORCE_N, true),
-        given => (given, false),
+/// The constant lateral force of a scene; an assumed one only if nothing else excites the blade, else zero.
+fn exciting_force(scene: &Scene) -> ConstantForce {
+    let turning = scene
+        .file()
+        .response
+        .is_some_and(|response| response.excites());
+    let others = turning || scene.oscillating_force().is_some();
+    let force = scene.constant_force();
+    let is_left_out = others && force.cause == ForceCause::Assumed;
+    ConstantForce {
+        force_n: if is_left_out { 0.0 } else { force.force_n },
+        ..force
     }
 }

@@ -1,6 +1,7 @@
 //! The text of a response.
 
 use super::report::{FrequencyResponse, ResponseLine, ResponseReport, SteadyState};
+use crate::model::scene::ForceCause;
 use crate::page::outline::{Column, FREQUENCY, Fact, LENGTH, Outline, SPEED, Table};
 use crate::page::text::shown_to;
 
@@ -78,10 +79,22 @@ pub fn verdict(report: &ResponseReport) -> String {
             }
             (Some((m, rpm)), _) => format!("at most {} mm, at {rpm:.0} rpm", shown_to(3, 1e3 * m)),
         };
-        return format!(
-            "Sawing deviation: {largest} (all excitations added; the sweep contains no operating_rpm)"
-        );
+        return match report.constant_force_cause {
+            Some(ForceCause::Assumed) => format!(
+                "Deflection at the cut under {} N: {largest} (the sweep contains no operating_rpm)",
+                shown_to(3, report.constant_force_n)
+            ),
+            _ => format!(
+                "Sawing deviation: {largest} (all excitations added; the sweep contains no operating_rpm)"
+            ),
+        };
     };
+    let is_still = report.lines.iter().all(|line| line.order == 0);
+    if let Some(constant) = &operating.constant
+        && (is_still || constant.deflection_m.is_none())
+    {
+        return constant.in_words();
+    }
     match (operating.board_deviation_m, operating.steady_state) {
         (Some(deviation), _) => format!(
             "Sawing deviation at {:.0} rpm: at most {} mm (all excitations added)",

@@ -3,8 +3,9 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
+use crate::analyses::board_deviation::BoardDeviation;
 use crate::analyses::campbell::InstabilityBand;
-use crate::model::scene::SceneFile;
+use crate::model::scene::{ForceCause, SceneFile};
 use crate::motion::steady::Cause;
 
 /// Report of steady-state responses (`response.json`).
@@ -43,9 +44,15 @@ pub struct ResponseReport {
     pub rpm: Vec<f64>,
     /// Responses, one for each cause and order of the rotation speed.
     pub lines: Vec<ResponseLine>,
-    /// Largest distance of the cut surface from the middle plane of the blade at rest, at each speed: the static deflection of
-    /// the rim at the cut and all amplitudes there, as if their maxima coincided; null where one of them is null.
+    /// Largest distance of the cut surface from the middle plane of the blade at rest, at each speed, with linear guides: the static
+    /// deflection of the rim at the cut and all amplitudes there, as if their maxima coincided; null where one of them is null.
     pub board_deviation_m: Vec<Option<f64>>,
+    /// The constant lateral force; zero without one.
+    #[serde(default)]
+    pub constant_force_n: f64,
+    /// Where this force comes from; null without one.
+    #[serde(default)]
+    pub constant_force_cause: Option<ForceCause>,
     /// Deflections at the operating speed; null if it is not within the sweep.
     pub operating: Option<OperatingResponse>,
     /// Frequency response between two points at one speed; null if neither the scene nor the options have a speed.
@@ -135,8 +142,11 @@ pub struct OperatingResponse {
     pub rpm: f64,
     /// Amplitude of each line at the probe.
     pub amplitude_m: Vec<Option<f64>>,
-    /// Deviation of the board.
+    /// Deviation of the board: that under the constant force, `constant`, and all amplitudes at the cut.
     pub board_deviation_m: Option<f64>,
+    /// Deflection under the constant lateral force, by the contact of guides that have a gap; null without such a force.
+    #[serde(default)]
+    pub constant: Option<BoardDeviation>,
     /// Whether there is a deviation, or why not.
     #[serde(default)]
     pub steady_state: SteadyState,

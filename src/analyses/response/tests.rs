@@ -233,7 +233,8 @@ fn narrow_lines_of_tooth_passing_have_their_height() {
         });
     });
     let report = response(&scene, &Options::default()).unwrap();
-    let line = &report.lines[0];
+    let mut lines = report.lines.iter();
+    let line = lines.find(|line| line.order == 42).unwrap();
     let plate = plate(&scene);
     let solver = Solver::new(&plate, &scene);
     let load = &loads(&plate, &scene, 0.0).unwrap()[0];

@@ -3,6 +3,7 @@
 use super::{
     GapStatistics, Group, NumberStatistics, Passing, Reliability, SpeedStatistics, StudyReport,
 };
+use crate::model::scene::Scene;
 use crate::page::outline::{
     Column, Fact, LENGTH, Outline, PERCENT, PLAIN, SPEED, Table, Value, shortened,
 };
@@ -34,7 +35,7 @@ pub fn outline(report: &StudyReport) -> Outline {
             "{within} of {} saws deflect by at most {} mm at the cut under {} N",
             report.all.saws,
             shown_to(3, limit),
-            shown_to(3, report.scene.side_force_n())
+            shown_to(3, force_n(report))
         ));
     }
     if let Some(passing) = &report.all.passing {
@@ -51,6 +52,12 @@ pub fn outline(report: &StudyReport) -> Outline {
     worst(&mut text, report);
     remarks(&mut text, report);
     text
+}
+
+/// The constant lateral force on the saws.
+fn force_n(report: &StudyReport) -> f64 {
+    let typed = report.scene.side_force_n();
+    Scene::try_from(report.scene.clone()).map_or(typed, |saw| saw.constant_force().force_n)
 }
 
 /// Adds the quantiles of the first critical speed and of the flutter speed, and of guides with a gap.

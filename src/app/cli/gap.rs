@@ -22,7 +22,7 @@ Examples:
 
 At least one guide needs `contact` one_sided and a `gap_m`, or give --gap. The
 deflection is that of the rim at the cut under the scene's `side_force`, by
-default 1 N there.";
+default the lateral force of its cut, or 1 N there.";
 
 #[derive(Args)]
 pub struct Arguments {

@@ -2,7 +2,7 @@
 
 use std::ops::Range;
 
-use faer::Mat;
+use faer::{Col, Mat};
 
 use super::contact::{ContactTerms, LiftingPads};
 use super::harmonic::HarmonicBlock;
@@ -13,7 +13,7 @@ use super::radial::RadialBasis;
 use super::resolution::Resolution;
 use super::stress::CentrifugalStress;
 use crate::model::evenly_spaced;
-use crate::model::scene::{Blade, DampingFile};
+use crate::model::scene::{Blade, DampingFile, Polar};
 
 /// The matrices of a scene in a basis, M = 1. Terms that the scene does not contain are not assembled.
 #[derive(Debug, Clone)]
@@ -134,6 +134,16 @@ impl Plate {
     /// 41 radii, evenly spaced from edge to edge, in m.
     pub fn sampled_radii_m(&self) -> impl Iterator<Item = f64> + '_ {
         sampled_radii(&self.blade).into_iter()
+    }
+
+    /// Load of one newton on several points, each with its share of the force.
+    pub(crate) fn load_at(&self, places: &[(Polar, f64)]) -> Col<f64> {
+        let mut load = Col::zeros(self.degrees_of_freedom());
+        for (place, share) in places {
+            let values = self.functions_at(place.radius_m, place.angle_rad);
+            load += Col::from_fn(values.len(), |i| share * values[i]);
+        }
+        load
     }
 
     /// Every basis function φᵢ at a point of the blade, in 1/√kg: N values in the order of the

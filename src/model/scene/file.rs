@@ -11,7 +11,7 @@ use super::cut_file::CutFile;
 use super::damping::DampingFile;
 use super::excitation::ExcitationFile;
 use super::friction::FrictionFile;
-use super::guide_file::GuideFile;
+use super::guide_file::{ContactLaw, GuideFile};
 use super::membrane::MembraneFile;
 use super::quantities::typical_value;
 use super::response::ResponseFile;
@@ -99,6 +99,12 @@ impl SceneFile {
     pub fn side_force_n(&self) -> f64 {
         let typed = self.side_force.and_then(|typed| typed.force_n);
         typed.unwrap_or(USUAL_SIDE_FORCE_N)
+    }
+
+    /// Whether a guide touches the blade only beyond a gap.
+    pub(crate) fn has_gaps(&self) -> bool {
+        let mut guides = self.guides.iter();
+        guides.any(|guide| guide.contact == ContactLaw::OneSided)
     }
 
     /// Place of the side force for a reader: "at the cut", or like "at the rim at 30°".

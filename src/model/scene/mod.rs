@@ -8,6 +8,7 @@
 #[cfg(feature = "cli")]
 mod assumption;
 mod blade;
+mod constant_force;
 mod cut;
 mod cut_file;
 mod damping;
@@ -61,6 +62,8 @@ pub use crate::page::text::FileError;
 pub use assumption::{AssumedBlock, Assumption};
 pub(crate) use blade::RimMass;
 pub use blade::{Blade, BladeFile, Bore, InPlane, Material, Mount, RimFile};
+pub(crate) use constant_force::ConstantForce;
+pub use constant_force::ForceCause;
 pub(crate) use cut::in_words as in_the_cut;
 pub use cut::{Cut, CutRun};
 pub use cut_file::{CutFile, CutSpeedFile};

@@ -7,8 +7,9 @@ use super::quantities::typical_value;
 use super::rule::is_default;
 use super::{Blade, Point, RefusedValue, SceneError};
 
-/// Lateral force at a point fixed in space, constant and oscillating. `deflect`, `runup`, `gap`, `place` and studies of guides with
-/// a gap compute with the constant force, by default 1 N, `response` and `gap` also with the oscillating one.
+/// Lateral force at a point fixed in space, constant and oscillating. `deflect` and `runup` compute with the constant force, by default
+/// 1 N; so do `response`, `gap`, `place`, studies of guides with a gap and every deviation of the board, by default with the mean lateral
+/// force of the cut, without a cut 1 N; `response` and `gap` also with the oscillating one.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct SideForceFile {

@@ -69,7 +69,7 @@ const IMBALANCE_ORDERS: [usize; 2] = [1, 2];
 /// Share of the largest stiffness below which a stiffness is that of a rigid motion.
 const RIGID: f64 = 1e-9;
 
-/// The loads on the blade of a scene: a constant side force in N, shape and imbalance, and the oscillating side force.
+/// The loads on the blade of a scene: a constant lateral force in N, shape and imbalance, and the oscillating side force.
 ///
 /// # Errors
 /// [`RefusedValue`] if the excitation has a shape that is a rigid motion of the blade.
@@ -78,7 +78,14 @@ pub fn loads(plate: &Plate, scene: &Scene, force_n: f64) -> Result<Vec<Load>, Re
     let (rim, place) = (plate.blade.outer_radius_m, scene.side_force().at.polar());
     let typed = scene.file().response.unwrap_or_default();
     if force_n != 0.0 {
-        loads.push(Load::at(Cause::SideForce, 0, plate, place, force_n));
+        let per_newton = plate.load_at(&scene.constant_force().places);
+        loads.push(Load {
+            cause: Cause::SideForce,
+            order: 0,
+            vector: Col::from_fn(per_newton.nrows(), |i| {
+                c64::new(force_n * per_newton[i], 0.0)
+            }),
+        });
     }
     let shapes = [
         (Cause::RunOut, 1, typed.runout_m),

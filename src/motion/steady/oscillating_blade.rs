@@ -64,7 +64,7 @@ impl OscillatingBlade {
         (speed_rad_per_s, to_rad_per_s): (f64, f64),
         modes: usize,
     ) -> Result<Self, StretchedError> {
-        let force = scene.side_force();
+        let force = scene.constant_force();
         let cut = Polar::new(plate.blade.outer_radius_m, scene.cut_angle_rad());
         let systems: Vec<GyroscopicSystem> = [
             Some(GyroscopicSystem::of_plate(plate)),
@@ -95,8 +95,8 @@ impl OscillatingBlade {
         }
         let modes = modes.min(plate.degrees_of_freedom());
         let blade =
-            StretchedBlade::up_to_with(plate, to_rad_per_s, force.at.polar(), modes, &further)?;
-        let blade = blade.pressed(force.force_n, force.at.polar())?;
+            StretchedBlade::up_to_with(plate, to_rad_per_s, &force.places, modes, &further)?;
+        let blade = blade.loaded(force.force_n, &force.places)?;
         let probe = scene.probe();
         let reduced = loads.into_iter().map(|load| {
             let vector = &load.vector;

@@ -70,14 +70,15 @@ impl StretchedBlade {
         place: Polar,
         modes: usize,
     ) -> Result<Self, StretchedError> {
-        Self::up_to_with(plate, to_rad_per_s, place, modes, &[])
+        Self::up_to_with(plate, to_rad_per_s, &[(place, 1.0)], modes, &[])
     }
 
-    /// The blade in the basis of [`StretchedBlade::up_to`], with further shapes of unit length.
+    /// The blade in the basis of [`StretchedBlade::up_to`] for a force on several points, each with its share, with further shapes of
+    /// unit length.
     pub(crate) fn up_to_with(
         plate: &Plate,
         to_rad_per_s: f64,
-        place: Polar,
+        places: &[(Polar, f64)],
         modes: usize,
         further: &[Col<f64>],
     ) -> Result<Self, StretchedError> {
@@ -89,8 +90,7 @@ impl StretchedBlade {
         let critical = critical_speeds(&full)?.into_iter();
         let diverging = critical.take_while(|c| c.speed_rad_per_s <= to_rad_per_s);
         let mut shapes: Vec<Col<f64>> = diverging.map(|c| c.shape).collect();
-        let values = plate.functions_at(place.radius_m, place.angle_rad);
-        let force = Col::from_fn(order, |i| values[i]);
+        let force = plate.load_at(places);
         shapes.extend(bent(&full, &force, to_rad_per_s));
         shapes.extend((0..modes).map(|k| rest.vectors.col(k).to_owned()));
         shapes.extend_from_slice(further);

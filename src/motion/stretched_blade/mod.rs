@@ -144,11 +144,26 @@ impl StretchedBlade {
     ///
     /// # Errors
     /// [`StretchedError::Value`] if a number is not finite.
-    pub fn pressed(mut self, force_n: f64, place: Polar) -> Result<Self, StretchedError> {
-        finite("the force in N", force_n)?;
+    pub fn pressed(self, force_n: f64, place: Polar) -> Result<Self, StretchedError> {
         finite("the radius in m", place.radius_m)?;
         finite("the angle", place.angle_rad)?;
-        self.force = Scale(force_n) * self.shapes_at(place);
+        self.loaded(force_n, &[(place, 1.0)])
+    }
+
+    /// Replaces the side force by a lateral force on several points, each with its share of the whole, fixed in space.
+    ///
+    /// # Errors
+    /// [`StretchedError::Value`] if the force is not finite.
+    pub(crate) fn loaded(
+        mut self,
+        force_n: f64,
+        places: &[(Polar, f64)],
+    ) -> Result<Self, StretchedError> {
+        finite("the force in N", force_n)?;
+        self.force.fill(0.0);
+        for (place, share) in places {
+            self.force += Scale(force_n * share) * self.shapes_at(*place);
+        }
         Ok(self)
     }
 

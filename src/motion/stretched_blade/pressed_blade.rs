@@ -53,8 +53,8 @@ impl StretchedBlade {
 /// A blade whose deflections under side forces can be computed.
 pub(crate) struct PressedBlade {
     blade: StretchedBlade,
-    /// Point of the force.
-    place: Polar,
+    /// Points of the force, each with its share.
+    places: Vec<(Polar, f64)>,
     /// The rim at the cut.
     cut: Polar,
     sites: Sites,
@@ -62,7 +62,7 @@ pub(crate) struct PressedBlade {
 }
 
 impl PressedBlade {
-    /// The blade of a scene for speeds up to `to_rpm`, on a basis of `modes` modes at rest.
+    /// The blade of a scene under its constant lateral force, for speeds up to `to_rpm`, on a basis of `modes` modes at rest.
     ///
     /// # Errors
     /// [`StretchedError`].
@@ -73,14 +73,15 @@ impl PressedBlade {
         modes: usize,
     ) -> Result<Self, StretchedError> {
         let plate = Plate::new(scene, resolution);
-        let place = scene.side_force().at.polar();
+        let places = scene.constant_force().places;
         let modes = modes.min(plate.degrees_of_freedom());
-        let blade = StretchedBlade::up_to(&plate, rad_per_s(to_rpm), place, modes)?;
+        let to_rad_per_s = rad_per_s(to_rpm);
+        let blade = StretchedBlade::up_to_with(&plate, to_rad_per_s, &places, modes, &[])?;
         Ok(PressedBlade {
             sites: blade.sites(),
             slopes: blade.slopes(),
             blade,
-            place,
+            places,
             cut: Polar::new(plate.blade.outer_radius_m, scene.cut_angle_rad()),
         })
     }
@@ -91,6 +92,7 @@ impl PressedBlade {
             blade: self.blade.clone().with_gaps(factor),
             sites: self.sites.clone(),
             slopes: self.slopes.clone(),
+            places: self.places.clone(),
             ..*self
         }
     }
@@ -129,7 +131,7 @@ impl PressedBlade {
         rpm: f64,
     ) -> Result<Option<f64>, StretchedError> {
         let (coarse, found) = self.settled(force_n, rpm)?;
-        let fine = finer.blade.clone().pressed(force_n, finer.place)?;
+        let fine = finer.blade.clone().loaded(force_n, &finer.places)?;
         let from = fine.shapes().transpose() * (coarse.shapes() * &found.coordinates);
         let other = fine.settled(rad_per_s(rpm), &from)?;
         let pair = self.valid(&found).zip(finer.valid(&other));
@@ -143,7 +145,7 @@ impl PressedBlade {
         rpm: f64,
     ) -> Result<(StretchedBlade, Equilibrium), StretchedError> {
         Cancellation::current().check()?;
-        let blade = self.blade.clone().pressed(force_n, self.place)?;
+        let blade = self.blade.clone().loaded(force_n, &self.places)?;
         let found = blade.settled(rad_per_s(rpm), &blade.flat())?;
         Ok((blade, found))
     }

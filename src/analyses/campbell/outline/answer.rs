@@ -110,8 +110,13 @@ fn at_operating_speed(text: &mut Outline, report: &Report, operating: &Operating
     if let Some(words) = at_critical_speed(report, operating) {
         text.reason(words);
     }
-    if let Some(words) = side_force_in_words(operating.rpm, operating.side_force_factor) {
+    if let Some(words) =
+        side_force_in_words(operating.rpm, operating.side_force_factor, &report.scene)
+    {
         text.reason(words);
+    }
+    if let Some(deviation) = &operating.deviation {
+        text.reason(deviation.in_words());
     }
     if let Some(words) = rule(operating) {
         text.reason(words);
