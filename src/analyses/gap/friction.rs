@@ -3,7 +3,7 @@
 //! A pad that presses with N on the blade at a radius r, with a coefficient of friction μ, has the power μ N Ω r. A share of
 //! the power enters the blade and heats it along a circle. The temperature over the radius changes the stress in the plane, thus
 //! the deflection under the side force and the forces of the pads: the loop is repeated until the temperature no longer
-//! changes, or it is known that it cannot settle. All numbers are those of one temperature. The effect of the force of friction on the
+//! changes, or it is known that it cannot settle. All numbers are those of the settled temperature. The effect of the force of friction on the
 //! motion is neglected.
 
 use crate::model::plate::heated_disk::{Cooling, radii_m, rises_k};
@@ -60,10 +60,11 @@ impl Loop<'_> {
         let settling = settled(vec![0.0; self.radii_m.len()], RUNAWAY_K, |rise_k| {
             let warm = self.warm(rise_k)?;
             let resolution = self.analysis.model.plate.resolution;
-            let blade = PressedBlade::new(&warm, resolution, rpm, MODES);
-            let Some(blade) = unless_buckled(blade.map_err(GapError::from))? else {
+            // A blade that its heat buckles at rest is refused as a scene, too.
+            if unless_buckled(first_critical_of_linear(&warm, resolution))?.is_none() {
                 return Ok(None);
-            };
+            }
+            let blade = PressedBlade::new(&warm, resolution, rpm, MODES)?;
             let (deviation, contacts) =
                 blade.with_contacts(scene.constant_force_at(rpm).force_n, rpm)?;
             work.advance();
@@ -173,7 +174,7 @@ impl FrictionHeat {
             _ => None,
         };
         let cold_deflection_m = cold.as_ref().map(|state| state.deviation.deviation_m);
-        let hot = hot.or(cold);
+        let hot = hot.or(cold).filter(|_| end == End::Settled);
         let deviation = hot.as_ref().map(|state| &state.deviation);
         Ok(FrictionHeat {
             coefficient: friction.coefficient,
@@ -181,9 +182,12 @@ impl FrictionHeat {
             convection_w_per_m2_k: friction.convection_w_per_m2_k,
             conductivity_w_per_m_k: friction.conductivity_w_per_m_k,
             expansion_per_k: cycle.expansion_per_k,
-            power_w: hot.as_ref().map_or(0.0, |state| state.power_w),
+            power_w: hot.as_ref().map(|state| state.power_w),
             radii_m: cycle.radii_m,
-            rise_k: settling.value,
+            rise_k: match end {
+                End::Settled => settling.value,
+                _ => Vec::new(),
+            },
             cold_deflection_m,
             deflection_m: deviation.map(|at| at.deviation_m),
             pads: pads(scene, deviation),
@@ -198,25 +202,25 @@ impl FrictionHeat {
         })
     }
 
-    /// Remark on the validity of the numbers.
-    pub(super) fn warning(&self) -> Option<String> {
+    /// Reason for which the blade has no steady state under the heat of friction; `None` if it has one.
+    pub(super) fn unsettled(&self) -> Option<String> {
         if self.settled {
             return None;
         }
-        let last = "the numbers of friction are those of its last temperature, and there is no critical speed";
         Some(match self.runaway_rpm {
             Some(rpm) => format!(
                 "the heat of friction runs away from {} rpm on: heat, deflection and pad forces raise each other, or the heat buckles the \
-                 blade; {last}",
+                 blade",
                 shown_to(3, rpm)
             ),
-            None if self.swings => format!(
+            None if self.swings => {
                 "the temperature of friction swings between two states, because a pad touches the blade only while it is cold, or only while \
-                 it is hot; {last}"
-            ),
-            None => format!(
-                "the model of the blade between its pads is not valid under this force; {last}"
-            ),
+                 it is hot"
+                    .to_owned()
+            }
+            None => {
+                "the model of the blade between its pads is not valid under this force".to_owned()
+            }
         })
     }
 }
@@ -232,6 +236,7 @@ fn pads(scene: &Scene, hot: Option<&Deviation>) -> Vec<FrictionPad> {
             from_radius_m: from_m.max(blade.inner_radius_m),
             to_radius_m: to_m.min(blade.outer_radius_m),
             gap_left_m: hot.and_then(|at| at.distances_left_m.get(place).copied()),
+            face_forces_n: hot.and_then(|at| at.face_forces_n.get(place).copied()),
         }
     };
     lifting.enumerate().map(entry).collect()

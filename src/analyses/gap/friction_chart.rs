@@ -19,9 +19,10 @@ const LONGEST_NAME: f64 = 500.0;
 /// Smallest width of a pad relative to the axis.
 const POINT: f64 = 0.004;
 
-/// The temperature rise over the radius, as numbers; `None` without friction.
+/// The temperature rise over the radius, as numbers; `None` without friction, and unless the temperature settles.
 pub fn chart(report: &GapReport) -> Option<ChartData> {
     let heat = report.friction.as_ref()?;
+    let power_w = heat.power_w?;
     let mm: Vec<f64> = heat.radii_m.iter().map(|r| 1e3 * r).collect();
     let ends = [mm.first(), mm.last()].map(|end| end.copied().unwrap_or_default());
     let hottest = heat.rise_k.iter().copied().fold(0.0, f64::max);
@@ -53,7 +54,7 @@ pub fn chart(report: &GapReport) -> Option<ChartData> {
     }
     let mut chart = ChartData::new(
         "Temperature rise by friction at the guides",
-        facts(report, heat),
+        facts(report, heat, power_w),
         vec![PanelData::new(
             AxisData::new("radius", "mm").within(proper_range(ends)),
             AxisData::new("temperature rise", "K").within([0.0, top]),
@@ -64,22 +65,19 @@ pub fn chart(report: &GapReport) -> Option<ChartData> {
     Some(chart)
 }
 
-fn facts(report: &GapReport, heat: &FrictionHeat) -> Vec<String> {
+fn facts(report: &GapReport, heat: &FrictionHeat, power_w: f64) -> Vec<String> {
     let map = &report.deviation;
-    let settled = (!heat.settled).then(|| "not settled".to_owned());
-    let all = [
-        Some(heading::of_saw(&report.scene.name, &report.condition)),
-        Some(format!("{:.0} rpm", map.rpm)),
-        Some(format!(
+    vec![
+        heading::of_saw(&report.scene.name, &report.condition),
+        format!("{:.0} rpm", map.rpm),
+        format!(
             "{} N {}",
             shown_to(3, map.force_n),
             report.scene.side_force_place_in_words()
-        )),
-        Some(format!("coefficient {}", shown_to(3, heat.coefficient))),
-        Some(format!("{} W", shown_to(3, heat.power_w))),
-        settled,
-    ];
-    all.into_iter().flatten().collect()
+        ),
+        format!("coefficient {}", shown_to(3, heat.coefficient)),
+        format!("{} W", shown_to(3, power_w)),
+    ]
 }
 
 /// Pads between the same radii.

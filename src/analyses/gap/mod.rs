@@ -89,7 +89,7 @@ pub fn gap(scene: &Scene, options: &Options) -> Result<GapReport, GapError> {
     let chart = analysis.report();
     let mut warnings: Vec<String> = caution(&chart).into_iter().chain(chart.warnings).collect();
     warnings.extend(shifting(scene));
-    warnings.extend(heated.as_ref().and_then(FrictionHeat::warning));
+    warnings.extend(heated.as_ref().and_then(FrictionHeat::unsettled));
     warnings.extend(oscillation.iter().flat_map(Oscillation::warnings));
     warnings.extend(deviation.basis_error.and_then(BasisError::warning));
     Ok(GapReport {

@@ -43,6 +43,13 @@ pub fn outline(report: &GapReport) -> Outline {
 /// The amplitude from which the guides act, and what they do to the first critical speed.
 pub fn answer(report: &GapReport) -> Outline {
     let mut text = Outline::default();
+    let friction = report.friction.as_ref();
+    if let Some(reason) = friction.and_then(FrictionHeat::unsettled) {
+        let rpm = report.deviation.rpm;
+        text.headline(format!(
+            "NO STEADY STATE with friction at {rpm:.0} rpm: {reason}"
+        ));
+    }
     text.headline(half_way(report));
     let critical = |at: &AtAmplitude| SPEED.fixed(1, at.critical_rpm.first().copied()).or("none");
     let half = LENGTH.digits(4, report.half_way_amplitude_m).or("none");
@@ -275,6 +282,10 @@ fn within(report: &GapReport, limit: f64) -> Table {
 }
 
 fn heat(text: &mut Outline, map: &DeviationMap, friction: &FrictionHeat) {
+    // Without a steady state there are no numbers; the first headline says why.
+    let Some(power_w) = friction.power_w else {
+        return;
+    };
     let rises = friction.radii_m.iter().zip(&friction.rise_k);
     let hottest = rises.fold((0.0, 0.0), |most: (f64, f64), (radius_m, rise_k)| {
         if *rise_k > most.1 {
@@ -294,8 +305,8 @@ fn heat(text: &mut Outline, map: &DeviationMap, friction: &FrictionHeat) {
             "power",
             format!(
                 "{} W, of which {} W heat the blade",
-                shown_to(3, friction.power_w),
-                shown_to(3, friction.heat_share * friction.power_w)
+                shown_to(3, power_w),
+                shown_to(3, friction.heat_share * power_w)
             ),
         ),
         Fact::new("largest rise", KELVIN.digits(3, hottest.1)).with(format!(
@@ -312,7 +323,10 @@ fn heat(text: &mut Outline, map: &DeviationMap, friction: &FrictionHeat) {
         ),
         Fact::new(
             "pad forces",
-            format!("{} N", forces.collect::<Vec<_>>().join("  ")),
+            format!(
+                "{} N, both faces together",
+                forces.collect::<Vec<_>>().join("  ")
+            ),
         ),
         Fact::new(
             "first critical speed",
@@ -339,6 +353,14 @@ fn heat(text: &mut Outline, map: &DeviationMap, friction: &FrictionHeat) {
         };
         let name = format!("guides[{}], gap left", pad.guide);
         Fact::new(name, format!("{left} (radius {place})"))
+    }));
+    facts.extend(friction.pads.iter().filter_map(|pad| {
+        let [one, other] = pad.face_forces_n?.map(|force| shown_to(3, force));
+        let name = format!("guides[{}], faces", pad.guide);
+        Some(Fact::new(
+            name,
+            format!("{one} N and {other} N, which both rub"),
+        ))
     }));
     let title = format!(
         "Heat of friction at {:.0} rpm under {} N, coefficient {}",

@@ -69,17 +69,19 @@ pub struct FrictionHeat {
     pub conductivity_w_per_m_k: f64,
     /// Coefficient of linear thermal expansion: that of the scene's temperature, or that of steel.
     pub expansion_per_k: f64,
-    /// Power of friction at all pads.
-    pub power_w: f64,
+    /// Power of friction at all faces of all pads, coefficient × force on a face × speed of the blade there; null unless the
+    /// temperature settles.
+    pub power_w: Option<f64>,
     /// Radii of the temperatures.
     pub radii_m: Vec<f64>,
-    /// Temperature rise at these radii by friction alone, to be added to that of the scene.
+    /// Temperature rise at these radii by friction alone, to be added to that of the scene; empty unless it settles.
     pub rise_k: Vec<f64>,
     /// Deflection at the cut without this heat; null where the model is not valid.
     pub cold_deflection_m: Option<f64>,
-    /// Deflection at the cut with this heat.
+    /// Deflection at the cut with this heat; null unless the temperature settles.
     pub deflection_m: Option<f64>,
-    /// Force of each one-sided pad on the blade, by contact and film, with this heat.
+    /// Force of each one-sided pad on the blade, by contact and film, with this heat: the sum over both of its faces. Empty unless the
+    /// temperature settles.
     pub pad_forces_n: Vec<f64>,
     /// Each one-sided pad, in the order of the scene.
     pub pads: Vec<FrictionPad>,
@@ -87,7 +89,7 @@ pub struct FrictionHeat {
     pub cold_critical_rpm: Option<f64>,
     /// First critical speed of the linear chart with this heat; null also if the temperature does not settle.
     pub critical_rpm: Option<f64>,
-    /// Whether the temperature has settled; otherwise the numbers are those of the last temperature with which the blade has a deflection.
+    /// Whether the temperature settles; otherwise the blade has no steady state, and its numbers are left out.
     pub settled: bool,
     /// Whether the temperature swings between two states, because power and deflection have a jump between them.
     #[serde(default)]
@@ -113,8 +115,12 @@ pub struct FrictionPad {
     /// Largest such distance.
     pub to_radius_m: f64,
     /// Smallest distance left between the blade and the faces of the pad with this heat; negative where a face is pressed in,
-    /// null where the model is not valid.
+    /// null unless the temperature settles.
     pub gap_left_m: Option<f64>,
+    /// Force of the blade on the face at positive deflections and on the other face, by contact. A tilted pad is pressed on both, and
+    /// both rub; their difference is the force of the pad. Null unless the temperature settles.
+    #[serde(default)]
+    pub face_forces_n: Option<[f64; 2]>,
 }
 
 /// A saw whose blade oscillates at its guides with one amplitude.

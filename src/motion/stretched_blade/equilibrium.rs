@@ -63,6 +63,14 @@ impl StretchedBlade {
         gaps.map_or_else(Vec::new, |gaps| gaps.forces_n(&equilibrium.coordinates))
     }
 
+    /// Force of the blade on both faces of each pad that lifts off, on that at positive deflections and on the other.
+    pub(crate) fn face_forces_n(&self, equilibrium: &Equilibrium) -> Vec<[f64; 2]> {
+        let gaps = self.gaps.as_ref();
+        gaps.map_or_else(Vec::new, |gaps| {
+            gaps.face_forces_n(&equilibrium.coordinates)
+        })
+    }
+
     /// Smallest distance between the blade and a face of each pad that lifts off; negative where a face is
     /// compressed.
     pub(crate) fn distances_left_m(&self, equilibrium: &Equilibrium) -> Vec<f64> {

@@ -18,6 +18,8 @@ pub struct Deviation {
     pub largest_m: f64,
     /// Force of each one-sided pad on the blade, by contact and film.
     pub pad_forces_n: Vec<f64>,
+    /// Force of the blade on both faces of each one-sided pad by contact, on that at positive deflections and on the other.
+    pub face_forces_n: Vec<[f64; 2]>,
     /// Smallest distance left between the blade and the faces of each one-sided pad, negative where a face is pressed in.
     pub distances_left_m: Vec<f64>,
 }
@@ -161,6 +163,7 @@ impl PressedBlade {
                 .deflection_m(found, self.cut.radius_m, self.cut.angle_rad),
             largest_m: self.sites.largest_m(&found.coordinates),
             pad_forces_n: self.blade.pad_forces_n(found),
+            face_forces_n: self.blade.face_forces_n(found),
             distances_left_m: self.blade.distances_left_m(found),
         })
     }

@@ -227,6 +227,18 @@ impl GapPotential {
         forces
     }
 
+    /// Force of the blade on both faces of each pad that lifts off, on that at positive deflections and on the other. A tilted pad is
+    /// pressed on both.
+    pub fn face_forces_n(&self, coordinates: &Col<f64>) -> Vec<[f64; 2]> {
+        let w = self.deflections(coordinates);
+        let mut forces = vec![[0.0; 2]; self.pads];
+        for (k, point) in self.points.iter().enumerate() {
+            let pressure_n = point.pressure_n(w[k]);
+            forces[point.pad][usize::from(pressure_n < 0.0)] += pressure_n.abs();
+        }
+        forces
+    }
+
     /// Smallest distance between the blade and a face of each pad that lifts off; negative where a face is
     /// compressed.
     pub fn distances_left_m(&self, coordinates: &Col<f64>) -> Vec<f64> {
