@@ -16,6 +16,8 @@ InstabilityKind: TypeAlias = Literal["divergence", "flutter"]
 
 StabilityState: TypeAlias = Literal["stable", "divergence", "flutter", "too_close", "outside_sweep"]
 
+ForceCause: TypeAlias = Literal["side_force", "cut", "assumed"]
+
 Direction: TypeAlias = Literal["forward", "backward", "reflected", "standing"]
 
 ShapeOccasion: TypeAlias = Literal["critical_speed", "divergence", "flutter", "operating_speed", "asked_speed"]
@@ -270,6 +272,30 @@ class Excitation(Entry):
 
 
 @dataclass(frozen=True, eq=False, repr=False, kw_only=True)
+class BoardDeviation(Entry):
+    """Stationary deflection of the rim at the cut under a constant lateral force.
+
+    Attributes
+    ----------
+    rpm : Rotation speed.
+    force_n : The lateral force.
+    cause : Where the force comes from.
+    by_contact : Whether the deflection is that of the blade in contact with guides that have a
+        gap; otherwise all guides are linear.
+    deflection_m : Deflection of the rim at the cut, as an absolute value; null if it is
+        unknown.
+    unknown : Reason for which the deflection is unknown; null if it is known.
+    """
+
+    rpm: float
+    force_n: float
+    cause: ForceCause
+    by_contact: bool
+    deflection_m: float | None
+    unknown: str | None = field(default=None)
+
+
+@dataclass(frozen=True, eq=False, repr=False, kw_only=True)
 class Operating(Entry):
     """Comparison of the operating speed with the first critical speed.
 
@@ -291,6 +317,8 @@ class Operating(Entry):
         relative to that at rest; negative if the blade moves against the force. Null unless the
         saw is stable, if nothing holds the blade's rigid motions, and so close to a critical
         speed that its error decides.
+    deviation : Deflection of the rim at the cut under the constant lateral force of the scene
+        at the operating speed.
     safe_window_rpm : The window without instability: speeds of the sweep around the operating
         speed at which no instability counts, and which are at least 5 % from critical speeds;
         null if the saw is unstable or at a critical speed.
@@ -309,6 +337,7 @@ class Operating(Entry):
     undecided_edge_rpm: float | None = field(default=None)
     at_critical_rpm: float | None = field(default=None)
     side_force_factor: float | None = field(default=None)
+    deviation: BoardDeviation | None = field(default=None)
     safe_window_rpm: FloatArray | None
     growth_per_s: float | None
     frequency_hz: float | None
@@ -1012,6 +1041,8 @@ class CheckReport(Entry):
         the first critical speed, where it is not defined.
     side_force_factor : Deflection of this point under a constant side force there at the
         operating speed, relative to that at rest, as in the report of `analyze`.
+    deviation : Deflection of this point under the constant lateral force of the scene at the
+        operating speed.
     rim_stiffness : Lateral stiffness of this point over the speed.
     rim_speed_m_per_s : Rim speed at the operating speed.
     max_rim_m_per_s : Limit of the rim speed.
@@ -1036,6 +1067,7 @@ class CheckReport(Entry):
     rim_stiffness_at_rest_n_per_m: float
     rim_stiffness_n_per_m: float | None
     side_force_factor: float | None = field(default=None)
+    deviation: BoardDeviation | None = field(default=None)
     rim_stiffness: RimStiffness
     rim_speed_m_per_s: float
     max_rim_m_per_s: float
@@ -1955,13 +1987,17 @@ class FrictionPad(Entry):
     from_radius_m : Smallest distance from the axis at which the pad lies on the blade.
     to_radius_m : Largest such distance.
     gap_left_m : Smallest distance left between the blade and the faces of the pad with this
-        heat; negative where a face is pressed in, null where the model is not valid.
+        heat; negative where a face is pressed in, null unless the temperature settles.
+    face_forces_n : Force of the blade on the face at positive deflections and on the other
+        face, by contact. A tilted pad is pressed on both, and both rub; their difference is the
+        force of the pad. Null unless the temperature settles.
     """
 
     guide: int
     from_radius_m: float
     to_radius_m: float
     gap_left_m: float | None
+    face_forces_n: FloatArray | None = field(default=None)
 
 
 @dataclass(frozen=True, eq=False, repr=False, kw_only=True)
@@ -1976,21 +2012,22 @@ class Friction(Entry):
     conductivity_w_per_m_k : Heat conductivity of the blade.
     expansion_per_k : Coefficient of linear thermal expansion: that of the scene's temperature,
         or that of steel.
-    power_w : Power of friction at all pads.
+    power_w : Power of friction at all faces of all pads, coefficient × force on a face × speed
+        of the blade there; null unless the temperature settles.
     radii_m : Radii of the temperatures.
     rise_k : Temperature rise at these radii by friction alone, to be added to that of the
-        scene.
+        scene; empty unless it settles.
     cold_deflection_m : Deflection at the cut without this heat; null where the model is not
         valid.
-    deflection_m : Deflection at the cut with this heat.
+    deflection_m : Deflection at the cut with this heat; null unless the temperature settles.
     pad_forces_n : Force of each one-sided pad on the blade, by contact and film, with this
-        heat.
+        heat: the sum over both of its faces. Empty unless the temperature settles.
     pads : Each one-sided pad, in the order of the scene.
     cold_critical_rpm : First critical speed of the linear chart without this heat.
     lowest_critical_rpm : First critical speed of the linear chart with this heat; null also if
         the temperature does not settle.
-    settled : Whether the temperature has settled; otherwise the numbers are those of the last
-        temperature with which the blade has a deflection.
+    settled : Whether the temperature settles; otherwise the blade has no steady state, and its
+        numbers are left out.
     swings : Whether the temperature swings between two states, because power and deflection
         have a jump between them.
     runaway_rpm : Speed from which the heat runs away or buckles the blade, to 1 %; null if it
@@ -2005,7 +2042,7 @@ class Friction(Entry):
     convection_w_per_m2_k: float
     conductivity_w_per_m_k: float
     expansion_per_k: float
-    power_w: float
+    power_w: float | None
     radii_m: FloatArray
     rise_k: FloatArray
     cold_deflection_m: float | None
@@ -2575,13 +2612,17 @@ class OperatingResponse(Entry):
     ----------
     rpm : The operating speed.
     amplitude_m : Amplitude of each line at the probe.
-    board_deviation_m : Deviation of the board.
+    board_deviation_m : Deviation of the board: that under the constant force, `constant`, and
+        all amplitudes at the cut.
+    constant : Deflection under the constant lateral force, by the contact of guides that have a
+        gap; null without such a force.
     steady_state : Whether there is a deviation, or why not.
     """
 
     rpm: float
     amplitude_m: FloatArray
     board_deviation_m: float | None
+    constant: BoardDeviation | None = field(default=None)
     steady_state: SteadyState = field(default="beyond_model")
 
 
@@ -2637,8 +2678,10 @@ class ResponseReport(Entry):
     rpm : Rotation speeds, ascending, the same for every line.
     lines : Responses, one for each cause and order of the rotation speed.
     board_deviation_m : Largest distance of the cut surface from the middle plane of the blade
-        at rest, at each speed: the static deflection of the rim at the cut and all amplitudes
-        there, as if their maxima coincided; null where one of them is null.
+        at rest, at each speed, with linear guides: the static deflection of the rim at the cut
+        and all amplitudes there, as if their maxima coincided; null where one of them is null.
+    constant_force_n : The constant lateral force; zero without one.
+    constant_force_cause : Where this force comes from; null without one.
     operating : Deflections at the operating speed; null if it is not within the sweep.
     points : Frequency response between two points at one speed; null if neither the scene nor
         the options have a speed.
@@ -2661,6 +2704,8 @@ class ResponseReport(Entry):
     rpm: FloatArray
     lines: tuple[ResponseLine, ...]
     board_deviation_m: FloatArray
+    constant_force_n: float = field(default=0.0)
+    constant_force_cause: ForceCause | None = field(default=None)
     operating: OperatingResponse | None
     points: FrequencyResponse | None
     bands: tuple[Instability, ...] = field(metadata={"key": "instabilities"})
@@ -2713,13 +2758,13 @@ class Change(Entry):
 
 @dataclass(frozen=True, eq=False, repr=False, kw_only=True)
 class LoadedPad(Entry):
-    """A linear pad under the constant side force of the scene, at the rim at the cut.
+    """A linear pad under the constant lateral force of the scene.
 
     Attributes
     ----------
     guide : Index of the guide.
     rpm : Speed of the saw.
-    side_force_n : The side force.
+    side_force_n : The lateral force.
     force_n : Force of the blade on the pad: positive if the pad is pressed in the direction of
         the side force.
     """
@@ -2793,7 +2838,8 @@ class DesignReport(Entry):
         remedy. The results hold for the numbers as typed.
     customer : For whom the report is; null if not given.
     date : Date of the report as typed; null if not given.
-    idling : Analysis of the idling saw, with sensitivities.
+    idling : Analysis of the idling saw, with sensitivities; the deviation of the board is that
+        of the cut, if there is one.
     in_cut : Analysis under the forces of the cut, with sensitivities; null for a scene without
         a cut.
     response : Steady response of the saw in its cut, or idling without a cut.
@@ -2848,8 +2894,10 @@ class ResponseResponseReport(Entry):
     rpm : Rotation speeds, ascending, the same for every line.
     lines : Responses, one for each cause and order of the rotation speed.
     board_deviation_m : Largest distance of the cut surface from the middle plane of the blade
-        at rest, at each speed: the static deflection of the rim at the cut and all amplitudes
-        there, as if their maxima coincided; null where one of them is null.
+        at rest, at each speed, with linear guides: the static deflection of the rim at the cut
+        and all amplitudes there, as if their maxima coincided; null where one of them is null.
+    constant_force_n : The constant lateral force; zero without one.
+    constant_force_cause : Where this force comes from; null without one.
     operating : Deflections at the operating speed; null if it is not within the sweep.
     points : Frequency response between two points at one speed; null if neither the scene nor
         the options have a speed.
@@ -2872,6 +2920,8 @@ class ResponseResponseReport(Entry):
     rpm: FloatArray
     lines: tuple[ResponseLine, ...]
     board_deviation_m: FloatArray
+    constant_force_n: float = field(default=0.0)
+    constant_force_cause: ForceCause | None = field(default=None)
     operating: OperatingResponse | None
     points: FrequencyResponse | None
     bands: tuple[Instability, ...] = field(metadata={"key": "instabilities"})

@@ -628,9 +628,10 @@ class CutDict(TypedDict, total=False):
 
 
 class SideForceDict(TypedDict, total=False):
-    """Lateral force at a point fixed in space, constant and oscillating. `deflect`, `runup`,
-    `gap`, `place` and studies of guides with a gap compute with the constant force, by default
-    1 N, `response` and `gap` also with the oscillating one."""
+    """Lateral force at a point fixed in space, constant and oscillating. `deflect` and `runup`
+    compute with the constant force, by default 1 N; so do `response`, `gap`, `place`, studies
+    of guides with a gap and every deviation of the board, by default with the mean lateral
+    force of the cut, without a cut 1 N; `response` and `gap` also with the oscillating one."""
 
     force_n: float | None
     """Constant force, positive in the direction of positive deflections. Typically 1, from 0.1
