@@ -9,7 +9,6 @@ use serde::{Deserialize, Serialize};
 
 use crate::analyses::check::{Judged, point_load_plate, rim_at_cut};
 use crate::analyses::deflect::PointLoad;
-use crate::analyses::gap::MODES;
 use crate::model::plate::{Plate, Resolution};
 use crate::model::scene::{ForceCause, Scene, rad_per_s, rpm};
 use crate::motion::stretched_blade::{Deviation, PressedBlade, StretchedError};
@@ -168,7 +167,7 @@ pub(crate) fn pressed(
     let force_n = scene.constant_force_at(rpm).force_n;
     let still = scene.idling();
     let scene = still.as_ref().unwrap_or(scene);
-    PressedBlade::new(scene, own, rpm, MODES)?.deviation(force_n, rpm)
+    PressedBlade::new(scene, own, rpm, PressedBlade::MODES)?.deviation(force_n, rpm)
 }
 
 #[cfg(test)]

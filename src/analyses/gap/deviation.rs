@@ -24,7 +24,7 @@ const ESTIMATED_EVERY: usize = 3;
 /// Number of speeds of the map over gap and speed, from rest to the end of the sweep.
 const SPEEDS: usize = 13;
 /// Number of modes at rest in the basis.
-pub(crate) const MODES: usize = 24;
+pub(super) const MODES: usize = PressedBlade::MODES;
 /// Number of modes at rest in the larger basis, with which the deflections are compared.
 const MORE_MODES: usize = 36;
 

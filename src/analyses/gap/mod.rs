@@ -49,7 +49,6 @@ pub(crate) use outline::{answer, outline};
 pub use report::{AtAmplitude, BasisError, DeviationMap, FrictionHeat, FrictionPad, GapReport};
 
 use amplitude::{AmplitudeChart, pushes};
-pub(crate) use deviation::MODES;
 use deviation::deviation_map;
 use oscillation::oscillation;
 

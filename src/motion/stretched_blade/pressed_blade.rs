@@ -64,6 +64,9 @@ pub(crate) struct PressedBlade {
 }
 
 impl PressedBlade {
+    /// Number of modes at rest in the basis of deflections.
+    pub const MODES: usize = 24;
+
     /// The blade of a scene under its constant lateral force, for speeds up to `to_rpm`, on a basis of `modes` modes at rest.
     ///
     /// # Errors
