@@ -16,7 +16,6 @@ const TOGETHER: &[(&str, &[&str], &[&str])] = &[
             "growth_per_s",
             "krein_sign",
             "dominant_harmonics",
-            "direction",
         ],
         &["rpm"],
     ),
@@ -231,10 +230,10 @@ mod tests {
     #[test]
     fn a_list_of_another_length_is_named_with_both_lengths() {
         let report = json!({"campbell": {"branches": [
-            {"rpm": [0, 1, 2], "frequency_hz": [5, 6, 7], "direction": []},
+            {"rpm": [0, 1, 2], "frequency_hz": [5, 6, 7], "growth_per_s": []},
         ]}});
         let said = check(&report).unwrap_err();
-        assert!(said.starts_with("campbell.branches[0].direction has 0 entries, but must have one for each of the 3 of rpm"), "{said}");
+        assert!(said.starts_with("campbell.branches[0].growth_per_s has 0 entries, but must have one for each of the 3 of rpm"), "{said}");
         let map = |row: serde_json::Value| json!({"deviation": {"gap_factors": [0, 1], "forces_n": [1, 2], "deflection_m": row}});
         assert_eq!(check(&map(json!([[1, null], [3, 4]]))), Ok(()));
         let said = check(&map(json!([[1, 2], [3]]))).unwrap_err();
