@@ -30,6 +30,7 @@ pub(crate) mod membrane_chart;
 pub(crate) mod mode_shapes;
 mod modes;
 mod outline;
+mod pad_places;
 mod remarks;
 pub(crate) mod root_loci;
 #[cfg(test)]

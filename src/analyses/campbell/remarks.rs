@@ -9,6 +9,7 @@ use crate::page::text::{shown, shown_to};
 use crate::stability::{Analysis, CHARTED, CRITICAL_MARGIN, is_cut_short, usual_end};
 
 use super::certificate::BandCertificate;
+use super::pad_places::{beside_the_blade, overlapping};
 
 /// Relative rounding error above which a frequency has fewer than six valid digits.
 const LEAST_DIGITS: f64 = 1e-6;
@@ -120,6 +121,8 @@ pub fn warnings(
         out_of_reach(scene, analysis),
         uncalibrated(scene),
         unstable_pads(scene),
+        beside_the_blade(scene),
+        overlapping(scene),
         thick(&analysis.model.plate.blade),
         out_of_balance(scene),
         rounded(analysis, at_rest),

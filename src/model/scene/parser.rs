@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use super::{Scene, SceneError, SceneFile};
+use super::{GuideFile, RefusedValue, Scene, SceneError, SceneFile};
 use crate::page::text::{KeyedError, Kind, OtherEncodings, from_keyed_json, read_path};
 
 /// Largest size of a scene file; a larger file is not a scene.
@@ -35,7 +35,17 @@ impl Scene {
     /// # Errors
     /// [`SceneError`] with the JSON path of the offending key.
     pub fn from_json(text: &str) -> Result<Self, SceneError> {
-        Scene::try_from(Self::file_from_json(text)?)
+        Self::of_typed(Self::file_from_json(text)?)
+    }
+
+    /// Validates a scene as a user typed it, in which two equal pads are a slip. A search may pass through such a scene.
+    ///
+    /// # Errors
+    /// [`SceneError`].
+    pub(crate) fn of_typed(file: SceneFile) -> Result<Self, SceneError> {
+        let scene = Scene::try_from(file)?;
+        no_copies(&scene.file().guides)?;
+        Ok(scene)
     }
 
     /// Reads a scene file without validating its numbers.
@@ -45,6 +55,21 @@ impl Scene {
         }
         from_keyed_json(text, "the scene").map_err(syntax)
     }
+}
+
+/// Refuses a pad that equals an earlier one.
+fn no_copies(guides: &[GuideFile]) -> Result<(), RefusedValue> {
+    for (index, pad) in guides.iter().enumerate() {
+        if let Some(same) = guides[..index].iter().position(|other| other == pad) {
+            return Err(RefusedValue::new(
+                format!("guides[{index}]"),
+                "the same place and numbers",
+                format!("another pad than guides[{same}]"),
+                "give it its own place, or leave it out; a pad on both faces of the blade is one pad",
+            ));
+        }
+    }
+    Ok(())
 }
 
 fn syntax(error: KeyedError) -> SceneError {
