@@ -89,7 +89,7 @@ pub fn soft_to_stiff_spring() -> Row {
 }
 
 pub fn rigid_spring() -> Row {
-    springs("1e12 to 1e15 N/m (pinned)", &[1e12, 1e15], 1e-5)
+    springs("1e10 N/m (pinned)", &[1e10], 1e-5)
 }
 
 /// A pad under the whole blade, with its total stiffness in N/m.
@@ -108,12 +108,12 @@ pub fn bed(stiffness_n_per_m: f64) -> GuideFile {
 pub fn pad_under_the_whole_blade() -> Row {
     let mut row = Row::new(
         "pad larger than the blade",
-        "1e-3 to 1e15 N/m",
+        "1e-3 to 1e10 N/m",
         "on the blade ω² = ω²(free) + k″/ρh",
         1e-7,
     );
     let speed = rad_per_s(1200.0);
-    for stiffness in [1e-3, 1.0, 1e3, 1e6, 1e9, 1e12, 1e15] {
+    for stiffness in [1e-3, 1.0, 1e3, 1e6, 1e9, 1e10] {
         let mut file = unguided();
         let free = Plate::new(&scene(&file), SMALL);
         let stiffness_per_area = stiffness / 4.0;

@@ -27,12 +27,12 @@ pub fn thickness_of_a_free_blade() -> Row {
 pub fn thickness_of_a_guided_blade() -> Row {
     let mut row = Row::new(
         "thickness, pad stiffness with its cube",
-        "1 µm to 50 mm",
+        "1 µm to 20 mm",
         "bands, growth and critical speeds are proportional to it",
         1e-8,
     );
     let reference = signature(&paper());
-    for thickness_m in [1e-6, 1e-4, 0.05] {
+    for thickness_m in [1e-6, 1e-4, 0.02] {
         let mut file = paper();
         let factor: f64 = thickness_m / file.blade.thickness_m;
         file.blade.thickness_m = thickness_m;

@@ -25,19 +25,19 @@ pub fn blade_sizes() -> Row {
 pub fn units() -> Row {
     let mut row = Row::new(
         "units of length and of time",
-        "scaled by 1e±6",
+        "scaled by 10 (length), 100 (mass), 10 (time)",
         "everything goes with 1/T",
         1e-8,
     );
     let reference = signature(&paper());
     // The unit of mass changes too, so that the numbers remain within the limits of a scene.
     for (length, mass, time) in [
-        (1e6, 1e6, 1.0),
-        (1e-6, 1e-9, 1.0),
-        (1.0, 1e-10, 1e-6),
-        (1.0, 1e9, 1e6),
-        (1.0, 1e3, 1.0),
-        (1.0, 1e-6, 1.0),
+        (10.0, 100.0, 1.0),
+        (0.1, 1e-4, 1.0),
+        (1.0, 0.01, 0.1),
+        (1.0, 100.0, 10.0),
+        (1.0, 10.0, 1.0),
+        (1.0, 0.01, 1.0),
     ] {
         let file = in_units(&paper(), [length, mass, time]);
         let expected = scaled(&reference, 1.0 / time);

@@ -99,7 +99,8 @@ fn turning_all_pads_together_changes_nothing() {
 /// stiffness × M/T², and every λ × 1/T.
 #[test]
 fn units_do_not_matter() {
-    let factor = || (-1.0..1.0_f64).prop_map(|x| 10_f64.powf(x));
+    // Larger factors exceed the allowed ranges of modulus and density.
+    let factor = || (-0.3..0.3_f64).prop_map(|x| 10_f64.powf(x));
     let draw = (any_saw(), 0.0..2.0_f64, [factor(), factor(), factor()]);
     check(24, draw, |(file, share, [length, mass, time])| {
         let scaled = in_units(&file, [length, mass, time]);

@@ -43,6 +43,7 @@ mod true_errors;
 
 mod accuracy;
 mod drawn_bands;
+mod ends_of_ranges;
 #[cfg(target_os = "linux")]
 mod fine_chart;
 mod fuzz;

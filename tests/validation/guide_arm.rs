@@ -171,11 +171,11 @@ fn critical_speeds_are_those_of_springs_in_series() {
 /// moment of inertia I about a diameter: Iω² ± 2IΩω = 3κr²/2 in a frame fixed in space, because a thin disk has the polar moment 2I.
 #[test]
 fn a_rigid_disk_on_arms_moves_as_the_closed_form_says() {
-    let (radius_m, k, held) = (0.3, 2e4, arm(5e4, 1.5));
+    let (radius_m, k, held) = (0.3, 2e2, arm(5e2, 1.5));
     let pads = [0.0, 120.0, 240.0].map(|angle| point(radius_m, angle, k, held));
     let saw = Scene::paper().edited(|saw| {
         saw.guides = pads.to_vec();
-        saw.blade.material.youngs_modulus_pa = 1e15;
+        saw.blade.material.youngs_modulus_pa = 1e13;
         saw.blade.thickness_m = 0.04;
         saw.blade.rim = None;
         saw.blade.profile.clear();
@@ -188,7 +188,7 @@ fn a_rigid_disk_on_arms_moves_as_the_closed_form_says() {
     let inertia = per_area * std::f64::consts::PI * (b.powi(4) - a.powi(4)) / 4.0;
     let system = GyroscopicSystem::of_plate(&Plate::new(&saw, SMALL));
     let mut worst = Worst::default();
-    for rpm in [0.0, 400.0, 1800.0] {
+    for rpm in [0.0, 40.0, 180.0] {
         let speed = rad_per_s(rpm);
         let rigid: Vec<f64> = eigenvalues(&system, speed)
             .into_iter()
@@ -208,7 +208,7 @@ fn a_rigid_disk_on_arms_moves_as_the_closed_form_says() {
                 let at = |omega: f64| equation(omega, inertia, turning, stiffness);
                 let h = 1e-4 * omega;
                 // Rounding of the fastest mode, of 1e7 rad/s, limits the slowest one.
-                (at(*omega) * 2.0 * h / (at(omega + h) - at(omega - h))).abs() / (omega + 50.0)
+                (at(*omega) * 2.0 * h / (at(omega + h) - at(omega - h))).abs() / (omega + 5.0)
             };
             let heave = apart(mass, 0.0, 3.0 * k);
             let tilts = [2.0 * speed, -2.0 * speed]

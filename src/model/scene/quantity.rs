@@ -1,5 +1,7 @@
 //! A number of a scene: name, unit, allowed and usual range, typical value.
 
+use std::borrow::Cow;
+
 use serde::Serialize;
 
 use super::RefusedValue;
@@ -141,6 +143,8 @@ impl Quantity {
             ("rpm", _) if value < 0.0 => TURNS_THE_OTHER_WAY,
             _ => "give a number in this range, in this unit",
         };
+        let meant = self.question_of_unit(value);
+        let remedy = meant.map_or(Cow::Borrowed(remedy), Cow::Owned);
         RefusedValue::new(key, words, allowed.trim_end(), remedy)
     }
 

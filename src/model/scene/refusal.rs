@@ -1,5 +1,7 @@
 //! Errors of a scene, and the four parts of a message about a value that cannot be used.
 
+use std::borrow::Cow;
+
 use crate::page::text::{FileError, shown};
 
 /// A value of a scene, a study or an argument that cannot be used. Program, live page and Python package show
@@ -14,7 +16,7 @@ pub struct RefusedValue {
     /// Allowed values.
     pub allowed: String,
     /// Remedy for the user.
-    pub remedy: &'static str,
+    pub remedy: Cow<'static, str>,
 }
 
 impl RefusedValue {
@@ -23,13 +25,13 @@ impl RefusedValue {
         key: impl Into<String>,
         value: impl Given,
         allowed: impl Into<String>,
-        remedy: &'static str,
+        remedy: impl Into<Cow<'static, str>>,
     ) -> Self {
         RefusedValue {
             key: key.into(),
             value: value.in_words(),
             allowed: allowed.into(),
-            remedy,
+            remedy: remedy.into(),
         }
     }
 

@@ -155,3 +155,50 @@ fn what_is_no_number_is_refused_by_its_key() {
         );
     }
 }
+
+/// A diameter of 550 m, a pad and a head that no machine has, and a modulus in GPa are refused before any work, with the unit that may be
+/// meant.
+#[test]
+fn numbers_beyond_physics_are_refused_with_the_unit_that_is_meant() {
+    let cases = [
+        (
+            "blade.outer_diameter_m",
+            json!(550.0),
+            "are these mm? That would be 0.55 m",
+        ),
+        (
+            "blade.material.youngs_modulus_pa",
+            json!(210.0),
+            "are these GPa? That would be 2.1e11 Pa",
+        ),
+        (
+            "guides.0.stiffness_n_per_m",
+            json!(1e15),
+            "give a number in this range",
+        ),
+        (
+            "guides.0.arm",
+            json!({ "stiffness_n_per_m": 1e7, "mass_kg": 1e15 }),
+            "give a number in this range",
+        ),
+        ("operating_rpm", json!(0.0), "give a number in this range"),
+    ];
+    for (path, value, remedy) in cases {
+        let message = refusal(&with([(path.to_owned(), value)]));
+        let key = path.replace(".0.", "[0].");
+        let is_named = message.starts_with(&key) && message.contains(" must be ");
+        assert!(is_named && message.contains(remedy), "{message}");
+    }
+}
+
+#[test]
+fn a_pad_that_is_typed_twice_is_refused() {
+    let mut scene = with([]);
+    let pad = scene["guides"][0].clone();
+    scene["guides"] = json!([pad, pad]);
+    let message = refusal(&scene);
+    let said = "guides[1] must be another pad than guides[0]";
+    assert!(message.starts_with(said), "{message}");
+    scene["guides"][1]["angle_deg"] = json!(55.5);
+    assert_eq!(refusal(&scene), "accepted");
+}

@@ -97,6 +97,14 @@ pub fn unusual_number(scene: &SceneFile, label: &str, path: &str, value: f64) ->
     )
 }
 
+impl Quantity {
+    /// Asks whether a number was meant in another unit, in which it is usual.
+    pub(super) fn question_of_unit(&self, value: f64) -> Option<String> {
+        let meant = Usual::of_quantity(self).meant(value, self.unit);
+        meant.map(|meant| meant.question(self.unit))
+    }
+}
+
 fn out_of_range(scene: &SceneFile) -> Vec<Unusual> {
     let rows = scene.measured.iter().flat_map(|measured| &measured.rows);
     let largest_rpm = rows.map(|row| row.rpm).fold(0.0, f64::max);
@@ -120,27 +128,33 @@ struct Meant {
 }
 
 impl Usual {
+    /// The usual range of a quantity for a saw of any size.
+    fn of_quantity(quantity: &Quantity) -> Self {
+        let (from, to) = quantity.usual;
+        Usual {
+            from,
+            to,
+            typical: (from * to).abs().sqrt(),
+            words: match quantity.typical.filter(Typical::is_number) {
+                Some(typical) => format!(
+                    "{}, typically {}",
+                    quantity.usual_in_words(),
+                    shown(typical.value)
+                ),
+                None => quantity.usual_in_words(),
+            },
+        }
+    }
+
     /// The usual range of a quantity for a saw of this size.
     fn of(scene: &SceneFile, quantity: &Quantity) -> Self {
-        let (from, to) = quantity.usual;
+        let (_, to) = quantity.usual;
         let (is_run, is_end) = (RUNS.contains(&quantity.path), ENDS.contains(&quantity.path));
         let diameter_m = scene.blade.outer_diameter_m;
         let is_known =
             Quantity::of("blade.outer_diameter_m").is_some_and(|q| q.is_usual(diameter_m));
         if !is_known || !(is_run || is_end) {
-            return Usual {
-                from,
-                to,
-                typical: (from * to).abs().sqrt(),
-                words: match quantity.typical.filter(Typical::is_number) {
-                    Some(typical) => format!(
-                        "{}, typically {}",
-                        quantity.usual_in_words(),
-                        shown(typical.value)
-                    ),
-                    None => quantity.usual_in_words(),
-                },
-            };
+            return Self::of_quantity(quantity);
         }
         let rpm = |rim_m_per_s: f64| 60.0 * rim_m_per_s / (PI * diameter_m);
         let slowest = rpm(RIM_M_PER_S.0);
@@ -179,7 +193,10 @@ impl Usual {
     /// The number in the unit from which a conversion makes it usual. Of several units, the one whose converted value is
     /// nearest to the typical value is chosen.
     fn meant(&self, value: f64, unit: &str) -> Option<Meant> {
-        let of_unit = MISTAKEN.iter().filter(|(own, _, _)| *own == unit);
+        // Zero is zero in any unit.
+        let of_unit = MISTAKEN
+            .iter()
+            .filter(|(own, _, _)| *own == unit && value != 0.0);
         let meant = of_unit.map(|(_, other, factor)| Meant {
             unit: other,
             value: value * factor,
@@ -197,24 +214,30 @@ impl Unusual {
 
     fn sentence(&self) -> String {
         let Unusual { path, why, .. } = self;
-        let remedy = match self.meant {
-            Some(Meant { unit, value }) => {
-                format!("are these {unit}? That would be {}", self.with_unit(value))
-            }
+        let remedy = match &self.meant {
+            Some(meant) => meant.question(self.unit),
             None => "is it in the unit that ends the key's name?".into(),
         };
         format!("{path} is {} ({why}); {remedy}", self.with_unit(self.value))
     }
 
     fn with_unit(&self, value: f64) -> String {
-        let space = if matches!(self.unit, "" | "°") {
-            ""
-        } else {
-            " "
-        };
-        // Seven digits hide the rounding error of a conversion of units.
-        format!("{}{space}{}", shown_to(7, value), self.unit)
+        with_unit(value, self.unit)
     }
+}
+
+impl Meant {
+    /// The question to the user; `own` is the unit of the quantity.
+    fn question(&self, own: &str) -> String {
+        let Meant { unit, value } = self;
+        format!("are these {unit}? That would be {}", with_unit(*value, own))
+    }
+}
+
+fn with_unit(value: f64, unit: &str) -> String {
+    let space = if matches!(unit, "" | "°") { "" } else { " " };
+    // Seven digits hide the rounding error of a conversion of units.
+    format!("{}{space}{unit}", shown_to(7, value))
 }
 
 /// Message about numbers that seem to be in the same other unit.
