@@ -22,22 +22,26 @@ pub enum AnalysisError {
     Campbell(CampbellError),
     /// The blade would yield long before the end of the sweep.
     #[error(
-        "sweep.to_rpm must be at most {limit_rpm:.0} (you gave {}): beyond that the rim would be stretched by more than 10 %, which exceeds the elastic limit of any blade; end the sweep earlier, or check diameter, modulus and density", shown(*.to_rpm)
+        "{key} must be at most {limit_rpm:.0} (you gave {}): beyond that the rim would be stretched by more than 10 %, which exceeds the elastic limit of any blade; give a lower speed, or check diameter, modulus and density", shown(*.to_rpm)
     )]
     Overstretched {
-        /// End of the sweep.
+        /// Key or argument that requires a speed.
+        key: &'static str,
+        /// Its value.
         to_rpm: f64,
-        /// Fastest speed allowed.
+        /// Largest value allowed.
         limit_rpm: f64,
     },
     /// Waves missing from the basis become critical within the sweep.
     #[error(
-        "sweep.to_rpm must be below {} (you gave {}): waves of {diameters} and more nodal diameters, which the largest basis lacks, are critical there; end the sweep earlier, or check thickness, diameter and modulus", shown(rounded_down(5, *.limit_rpm)), shown(*.to_rpm)
+        "{key} must be below {} (you gave {}): waves of {diameters} and more nodal diameters, which the largest basis lacks, are critical there; give a lower speed, or check thickness, diameter and modulus", shown(rounded_down(5, *.limit_rpm)), shown(*.to_rpm)
     )]
     Unresolved {
-        /// End of the sweep.
+        /// Key or argument that requires a speed.
+        key: &'static str,
+        /// Its value.
         to_rpm: f64,
-        /// First critical speed of the waves that the largest basis lacks.
+        /// Its value for the first critical speed of the waves that the largest basis lacks.
         limit_rpm: f64,
         /// Smallest number of their nodal diameters.
         diameters: usize,
@@ -50,6 +54,32 @@ pub enum AnalysisError {
         /// Their largest number of nodal diameters.
         diameters: usize,
     },
+}
+
+/// Key of the end of a sweep.
+pub(super) const END_OF_SWEEP: &str = "sweep.to_rpm";
+
+impl AnalysisError {
+    /// Names the key or argument from which the end of the sweep follows, as `factor` times its value, instead of the end itself.
+    pub(crate) fn due_to(mut self, cause: &'static str, factor: f64) -> Self {
+        if let AnalysisError::Overstretched {
+            key,
+            to_rpm,
+            limit_rpm,
+        }
+        | AnalysisError::Unresolved {
+            key,
+            to_rpm,
+            limit_rpm,
+            ..
+        } = &mut self
+        {
+            *key = cause;
+            *to_rpm /= factor;
+            *limit_rpm /= factor;
+        }
+        self
+    }
 }
 
 impl From<CampbellError> for AnalysisError {
@@ -69,6 +99,7 @@ mod tests {
     #[test]
     fn numbers_of_a_refusal_are_rounded_and_its_limit_is_not_zero() {
         let refused = AnalysisError::Unresolved {
+            key: END_OF_SWEEP,
             to_rpm: 4000.0 - 5e-13,
             limit_rpm: 0.012_345_678,
             diameters: 73,

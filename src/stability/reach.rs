@@ -5,7 +5,7 @@
 //! tell how many diameters there are. Guides only raise critical speeds; other loads (cutting forces) may lower them,
 //! and then the first critical speed tells by how much.
 
-use super::error::AnalysisError;
+use super::error::{AnalysisError, END_OF_SWEEP};
 use super::ladder::{DENSE_LADDER, LADDER, resolution};
 use crate::model::plate::{MOST_DIAMETERS, MOST_UNKNOWNS, Plate, Resolution};
 use crate::model::scene::{Blade, Material, Scene, SpeedRange, rad_per_s, rpm};
@@ -181,6 +181,7 @@ impl<'a> Reach<'a> {
         };
         match StandingWaves::lowest_beyond(most, &saw.plate)? {
             Some(lowest) if lowest <= sweep.to_rad_per_s => Err(AnalysisError::Unresolved {
+                key: END_OF_SWEEP,
                 to_rpm: rpm(sweep.to_rad_per_s),
                 limit_rpm: rpm(lowest),
                 diameters: most + 1,
@@ -222,6 +223,7 @@ fn check_stretch(blade: &Blade, to_rad_per_s: f64) -> Result<(), AnalysisError> 
     let fastest = fastest_rad_per_s(blade);
     if to_rad_per_s > fastest {
         Err(AnalysisError::Overstretched {
+            key: END_OF_SWEEP,
             to_rpm: rpm(to_rad_per_s),
             limit_rpm: rpm(fastest),
         })

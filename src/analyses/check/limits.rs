@@ -165,12 +165,38 @@ impl Limits {
 
     /// Smallest end of a sweep: it exceeds every speed of the limits, so that a band that begins there is
     /// found.
-    pub fn reach_rad_per_s(&self) -> f64 {
-        let asked = [
-            Some(self.operating_rad_per_s / self.margin),
-            self.min_flutter_rad_per_s,
-            self.min_critical_rad_per_s,
+    pub fn reach(&self) -> Reach {
+        let reach = |key, factor: f64, speed: Option<f64>| Reach {
+            key,
+            factor,
+            end_rad_per_s: factor * speed.unwrap_or(0.0),
+        };
+        let operating = reach(
+            "operating_rpm",
+            BEYOND / self.margin,
+            Some(self.operating_rad_per_s),
+        );
+        let others = [
+            reach("min_flutter_rpm", BEYOND, self.min_flutter_rad_per_s),
+            reach("min_critical_rpm", BEYOND, self.min_critical_rad_per_s),
         ];
-        BEYOND * asked.into_iter().flatten().fold(0.0, f64::max)
+        others.into_iter().fold(operating, |far, other| {
+            if other.end_rad_per_s > far.end_rad_per_s {
+                other
+            } else {
+                far
+            }
+        })
     }
+}
+
+/// How far a sweep has to go, and the limit that requires it.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Reach {
+    /// Key of the limit.
+    pub key: &'static str,
+    /// End of the sweep in multiples of the limit.
+    pub factor: f64,
+    /// End of the sweep.
+    pub end_rad_per_s: f64,
 }

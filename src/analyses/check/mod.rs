@@ -39,6 +39,7 @@ pub(crate) use outline::outline;
 
 use criteria::{of_gaps, without_stiffness};
 pub(crate) use limits::RIM_LIMIT_M_PER_S;
+use limits::Reach;
 pub use limits::{Limits, LimitsFile};
 pub use report::{CheckReport, Criterion, RimStiffness};
 pub(crate) use rim::{
@@ -69,7 +70,7 @@ pub enum CheckError {
 /// # Errors
 /// [`CheckError`] when the saw cannot be analysed that far.
 pub fn check(scene: &Scene, limits: &Limits) -> Result<CheckReport, CheckError> {
-    let analysis = &analysed(scene, limits.reach_rad_per_s())?;
+    let analysis = &analysed(scene, limits)?;
     let angle = scene.cut_angle_rad();
     let plate = &point_load_plate(&analysis.scene, analysis.model.plate.resolution);
     let critical = analysis.critical_rad_per_s();
@@ -142,10 +143,21 @@ pub fn check(scene: &Scene, limits: &Limits) -> Result<CheckReport, CheckError> 
 
 /// The analysis of a scene from rest to the end of its sweep, given or chosen by the program, or further if
 /// required.
-fn analysed(scene: &Scene, least_end_rad_per_s: f64) -> Result<Analysis, CheckError> {
+fn analysed(scene: &Scene, limits: &Limits) -> Result<Analysis, CheckError> {
+    let Reach {
+        key,
+        factor,
+        end_rad_per_s: least_end_rad_per_s,
+    } = limits.reach();
     let to = |end_rad_per_s: f64| {
         let range = SpeedRange::new(0.0, end_rad_per_s.max(least_end_rad_per_s));
-        Ok(Analysis::new(&scene.swept(range)?)?)
+        let analysis = Analysis::new(&scene.swept(range)?);
+        Ok(
+            analysis.map_err(|error| match end_rad_per_s < least_end_rad_per_s {
+                true => error.due_to(key, factor),
+                false => error,
+            })?,
+        )
     };
     if let Some(SpeedRange { to_rad_per_s, .. }) = scene.sweep() {
         return to(to_rad_per_s);
@@ -154,7 +166,7 @@ fn analysed(scene: &Scene, least_end_rad_per_s: f64) -> Result<Analysis, CheckEr
     if analysis.range_rad_per_s.to_rad_per_s >= least_end_rad_per_s {
         Ok(analysis)
     } else {
-        to(least_end_rad_per_s)
+        to(0.0)
     }
 }
 
@@ -198,6 +210,34 @@ fn warnings(analysis: &Analysis, limits: &Limits, compared_gaps: usize) -> Vec<S
 mod tests {
     use super::*;
     use crate::model::scene::{Accuracy, rad_per_s};
+
+    /// The rim is stretched by a tenth at Ωb = √(0.1 E/ρ). The sweep of a check goes on to 1.02/0.85 times the operating speed.
+    #[test]
+    fn a_speed_beyond_the_model_is_refused_by_the_limit_that_requires_it() {
+        let soft = Scene::paper().edited(|saw| {
+            (saw.accuracy, saw.sweep) = (Accuracy::Draft, None);
+            saw.blade.material.youngs_modulus_pa = 1e8;
+        });
+        let scene = soft.unwrap();
+        let material = scene.blade().material;
+        let torn = (0.1 * 1e8 / material.density_kg_per_m3).sqrt() / 0.355;
+        let message = |limits: &Limits| check(&scene, limits).unwrap_err().to_string();
+        let operating = message(&Limits::at(rad_per_s(1250.0)));
+        let said = format!(
+            "operating_rpm must be at most {:.0} (you gave 1250)",
+            rpm(torn) * 0.85 / 1.02
+        );
+        assert!(operating.starts_with(&said), "{operating}");
+        let flutter = message(&Limits {
+            min_flutter_rad_per_s: Some(rad_per_s(4000.0)),
+            ..Limits::at(rad_per_s(300.0))
+        });
+        let said = format!(
+            "min_flutter_rpm must be at most {:.0} (you gave 4000)",
+            rpm(torn) / 1.02
+        );
+        assert!(flutter.starts_with(&said), "{flutter}");
+    }
 
     /// The program ends the sweep of this saw; limits require much less, and more.
     #[test]

@@ -41,7 +41,8 @@ pub fn runup(scene: &Scene, progress: Progress<'_>) -> Result<RunUpReport, Trans
     let runup = scene.needed_runup().map_err(SceneError::from)?;
     let (probe, force) = (scene.probe(), scene.side_force());
     let speeds = runup.speeds();
-    let analysis = Analysis::new(&scene.swept(speeds)?)?;
+    let analysis =
+        Analysis::new(&scene.swept(speeds)?).map_err(|error| error.due_to("runup.to_rpm", 1.0))?;
     let (model, plate) = (&analysis.model, &analysis.model.plate);
     let modes = model.modes(speeds.from_rad_per_s)?;
     let shown = modes.iter().take(SHOWN_MODES);

@@ -83,7 +83,7 @@ impl Study {
             Some(rpm) => speed_rad_per_s("to_rpm", rpm)?,
             None => end_of_sweep(&scene)?,
         };
-        let reach = limits.map_or(0.0, |limits| limits.reach_rad_per_s());
+        let reach = limits.map_or(0.0, |limits| limits.reach().end_rad_per_s);
         Ok(Study {
             scene,
             file,

@@ -8,7 +8,9 @@ use crate::model::scene::{
     Accuracy, Reading, RefusedValue, SCENE_TEXT, Scene, SceneError, Setting, number_in, numbers_of,
     quantity,
 };
-use crate::page::text::{FileError, Kind, printable, read_path, read_stream, shown};
+use crate::page::text::{
+    FileError, Kind, printable, printable_line, read_path, read_stream, shown,
+};
 use anyhow::Context;
 use clap::{Args, ValueEnum};
 use serde::Serialize;
@@ -120,7 +122,24 @@ pub const fn words(command: &str, name: &str) -> &'static str {
 /// Reads a scene from a file, or from standard input where the path is `-`.
 pub fn read_scene(path: &Path) -> anyhow::Result<Scene> {
     let text = read_text(path, SCENE_TEXT)?;
-    Scene::from_json(&text).map_err(|error: SceneError| refused(path, error.into()))
+    let read = Scene::file_from_json(&text).and_then(|file| {
+        let mut unusual = file.unusual_numbers();
+        Scene::of_typed(file).inspect_err(|error| {
+            // The error itself describes the number that it refuses.
+            if let SceneError::Value(refused) = error {
+                unusual.retain(|number| !number.starts_with(&format!("{} is ", refused.key)));
+            }
+            remark_unusual(&unusual);
+        })
+    });
+    read.map_err(|error: SceneError| refused(path, error.into()))
+}
+
+/// Prints unusual numbers on the error stream: before the work, which may take long or be refused because of them.
+fn remark_unusual(numbers: &[String]) {
+    for number in numbers {
+        eprintln!("unusual number: {}", printable_line(number));
+    }
 }
 
 /// Reads the text of a file, or of standard input where the path is `-`.
@@ -266,6 +285,7 @@ impl Changes {
             let edited = scene.edited(|file| file.tolerance = Some(tolerance));
             scene = edited.context("--tolerance was refused")?;
         }
+        remark_unusual(&scene.file().unusual_numbers());
         Ok(scene)
     }
 }

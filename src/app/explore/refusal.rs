@@ -49,8 +49,8 @@ impl From<SceneError> for Refusal {
 impl From<AnalysisError> for Refusal {
     fn from(error: AnalysisError) -> Self {
         let key = match &error {
-            AnalysisError::Unresolved { .. } | AnalysisError::Overstretched { .. } => {
-                Some("sweep.to_rpm".to_owned())
+            AnalysisError::Unresolved { key, .. } | AnalysisError::Overstretched { key, .. } => {
+                Some((*key).to_owned())
             }
             AnalysisError::TooNarrow { .. } => Some("mount.diameter_m".to_owned()),
             _ => None,
