@@ -72,18 +72,18 @@ impl Motions {
         let swept = idling.swept(SpeedRange::new(0.0, fastest))?;
         let chosen = ChosenBasis::new(&swept, idling.tolerance())?;
         let needed = needed(&chosen.saw.plate, washboarding, run, fastest)?;
-        let plate = complete_plate(idling, chosen.saw.plate, fastest, needed).in_cut(cut, run);
+        let plate = complete_plate(idling, chosen.saw.plate, fastest, needed)?.in_cut(cut, run);
         let full = GyroscopicSystem::of_plate(&plate);
         if !full.free_rigid.is_empty() {
             return Err(WashboardError::Loose);
         }
         let all = Shapes::new(&full, run.speed_rad_per_s)?;
         let arc = columns(&arc(&plate, washboarding))?;
-        let searched_to = complete_to(&plate, fastest).min(needed);
+        let searched_to = complete_to(&plate, fastest)?.min(needed);
         let Kept {
             count: kept,
             complete_to,
-        } = all.kept(&plate, run.speed_rad_per_s, searched_to);
+        } = all.kept(&plate, run.speed_rad_per_s, searched_to)?;
         let passing = washboarding.tooth_passing_rad_per_s(run.speed_rad_per_s);
         if complete_to < 0.5 * passing {
             return Err(WashboardError::Incomplete {
@@ -213,17 +213,17 @@ impl Shapes {
 
     /// The shapes that represent the modes up to a frequency in space; if these are too many, the largest allowed
     /// number.
-    fn kept(&self, plate: &Plate, speed: f64, complete_to: f64) -> Kept {
-        let turned = most_turned(plate, speed, complete_to);
+    fn kept(&self, plate: &Plate, speed: f64, complete_to: f64) -> Result<Kept, SpectrumError> {
+        let turned = most_turned(plate, speed, complete_to)?;
         let count = self.up_to(BEYOND_MODES * (complete_to + turned));
         if count <= MOST_SHAPES {
-            return Kept { count, complete_to };
+            return Ok(Kept { count, complete_to });
         }
         let highest = self.squares[MOST_SHAPES].max(0.0).sqrt();
-        Kept {
+        Ok(Kept {
             count: MOST_SHAPES,
             complete_to: (highest / BEYOND_MODES - turned).max(0.0),
-        }
+        })
     }
 
     /// Static flexibility, under forces on the arc, of the shapes beyond the first `kept`. It is positive
@@ -268,7 +268,12 @@ fn columns(arc: &Mat<f64>) -> Result<Mat<f64>, SpectrumError> {
 }
 
 /// The plate, or the first larger one that represents all modes up to a frequency.
-fn complete_plate(scene: &Scene, plate: Plate, fastest: f64, needed: f64) -> Plate {
+fn complete_plate(
+    scene: &Scene,
+    plate: Plate,
+    fastest: f64,
+    needed: f64,
+) -> Result<Plate, SpectrumError> {
     let Resolution {
         max_diameters,
         radial_functions,
@@ -279,7 +284,7 @@ fn complete_plate(scene: &Scene, plate: Plate, fastest: f64, needed: f64) -> Pla
         .copied()
         .filter(|(n, j)| *n > max_diameters && *j >= radial_functions);
     for (max_diameters, radial_functions) in larger {
-        if complete_to(&plate, fastest) >= needed {
+        if complete_to(&plate, fastest)? >= needed {
             break;
         }
         let resolution = Resolution {
@@ -288,34 +293,59 @@ fn complete_plate(scene: &Scene, plate: Plate, fastest: f64, needed: f64) -> Pla
         };
         plate = Plate::new(scene, resolution);
     }
-    plate
+    Ok(plate)
 }
 
 /// Frequency in space up to which the basis represents all modes, limited by the backward wave with the most
 /// nodal diameters at the fastest speed, and by the most nodal circles.
-fn complete_to(plate: &Plate, fastest: f64) -> f64 {
+fn complete_to(plate: &Plate, fastest: f64) -> Result<f64, SpectrumError> {
     let last = plate.max_diameters();
     let circles = plate.basis.count().saturating_sub(RADIAL_MARGIN);
-    let waves = body_frequency(plate, last, 0, 0.0) - last as f64 * fastest;
-    waves.min(body_frequency(plate, 0, circles, 0.0)).max(0.0)
+    let waves = body_frequency(plate, last, 0, 0.0)? - last as f64 * fastest;
+    Ok(waves.min(body_frequency(plate, 0, circles, 0.0)?).max(0.0))
 }
 
-/// Frequency in the body frame of the shape with n nodal diameters and k nodal circles.
-fn body_frequency(plate: &Plate, n: usize, k: usize, speed: f64) -> f64 {
+/// Frequency in the body frame of the shape with n nodal diameters and k nodal circles; zero for a shape that buckles.
+fn body_frequency(plate: &Plate, n: usize, k: usize, speed: f64) -> Result<f64, SpectrumError> {
     let block = plate.harmonics[n].body_frame_stiffness(speed);
     let size = plate.basis.count();
-    let values = symmetric_eigenvalues(block.get(..size, ..size));
-    let square = values.ok().and_then(|values| values.get(k).copied());
-    square.unwrap_or(0.0).max(0.0).sqrt()
+    let squares =
+        symmetric_eigenvalues(block.get(..size, ..size)).map_err(SpectrumError::at(speed))?;
+    Ok(squares[k].max(0.0).sqrt())
 }
 
 /// Largest difference between the frequency in the body frame and in space, nΩ for a wave of n diameters, of
 /// the modes up to a frequency in space.
-fn most_turned(plate: &Plate, speed: f64, complete_to: f64) -> f64 {
-    let waves = 0..=plate.max_diameters();
-    let within = waves.filter(|&n| {
-        let turned = n as f64 * speed;
-        body_frequency(plate, n, 0, speed) - turned <= complete_to
-    });
-    within.max().unwrap_or(0) as f64 * speed
+fn most_turned(plate: &Plate, speed: f64, complete_to: f64) -> Result<f64, SpectrumError> {
+    let mut within = 0;
+    for n in 0..=plate.max_diameters() {
+        if body_frequency(plate, n, 0, speed)? - n as f64 * speed <= complete_to {
+            within = n;
+        }
+    }
+    Ok(within as f64 * speed)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// At 1e200 rad/s the stiffness of the tension overflows; a frequency of 0 Hz would be taken for a wave that every speed turns.
+    #[test]
+    fn an_eigenproblem_without_a_result_is_refused() {
+        let resolution = Resolution {
+            max_diameters: 3,
+            radial_functions: 4,
+        };
+        let plate = Plate::new(&Scene::paper(), resolution);
+        for n in 0..=3 {
+            assert!(body_frequency(&plate, n, 0, 100.0).is_ok());
+            let found = body_frequency(&plate, n, 0, 1e200);
+            assert!(
+                matches!(found, Err(SpectrumError::NotFinite { .. })),
+                "{n}: {found:?}"
+            );
+        }
+        assert!(most_turned(&plate, 1e200, 1e3).is_err());
+    }
 }
