@@ -99,6 +99,7 @@ pub(crate) use resting_mode::RestingMode;
 pub(crate) use scale::frequency_scale;
 pub use standing_waves::StandingWaves;
 pub(crate) use standing_waves::{diameters_within, highest_reflected, waves_within};
+pub(crate) use symmetric_pencil::stiffened;
 pub(crate) use vectors::{complex, orthonormal, smallest, split};
 pub use work::Cancellation;
 #[doc(hidden)]

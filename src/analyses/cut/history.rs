@@ -7,13 +7,13 @@ use crate::model::scene::{CutRun, Point};
 use crate::model::system::GyroscopicSystem;
 use crate::modes::{Assembled, SpectrumError};
 use crate::motion::transient::{
-    Gauge, Integrator, Propagator, SAMPLES, Sinusoid, State, TransientError, damped_sinusoids,
-    fitted_growth, lateral_load,
+    Deflections, Gauge, Integrator, Propagator, ReducedBlade, SAMPLES, Sinusoid, State,
+    TransientError, damped_sinusoids, fitted_growth, lateral_load,
 };
 use crate::stability::{CRITICAL_MARGIN, GrowingModes, critical_at};
 
 use super::record::{
-    Growth, MAX_SAMPLES, Record, SAMPLE_S, fastest_mode_rad_per_s, longest_step_s,
+    Growth, MAX_SAMPLES, Record, SAMPLE_S, fastest_mode_rad_per_s, longest_step_s, steps_a_sample,
 };
 use super::saw::{MODES, SawInCut};
 use super::stretching::{CutStretching, StretchedCut, stretched_cut};
@@ -94,13 +94,14 @@ pub(super) fn cut_history(saw: &SawInCut<'_>, probe: Point) -> Result<CutHistory
         GrowingModes::of_plate(&saw.cutting, speed)?,
     ];
     let [idle, in_cut] = growing.each_ref().map(|found| Growth::from(found.growing));
-    let gauge = Gauge::new(plate, &saw.blade, probe);
     let (record, stretched) = if cut.stretching {
         let StretchedCut { record, found } = stretched_cut(saw, probe, [idle, in_cut])?;
         (record, Some(found))
     } else {
+        let gauge = Gauge::new(plate, &saw.recorded, probe);
         (record(saw, &gauge, [idle, in_cut])?, None)
     };
+    let gauge = Gauge::new(plate, &saw.blade, probe);
     let sinusoids = sinusoids_in_cut(saw, &gauge, in_cut)?;
     let critical = [
         critical_near(plate, speed)?,
@@ -143,7 +144,8 @@ fn record(
         largest_m: vec![0.0],
         linear_until_s: None,
     };
-    let mut state = State::rest(saw.blade.order());
+    let blade = &saw.recorded;
+    let mut state = State::rest(blade.order());
     let phases = [
         (&saw.idle_system, idle, cut.idle_s, 0.0),
         (&saw.cutting_system, in_cut, run.duration_s, run.lateral_n),
@@ -154,42 +156,55 @@ fn record(
             continue;
         }
         // A flat saw without a force remains flat, even if it is unstable.
-        let moves = force_n != 0.0 || state != State::rest(saw.blade.order());
+        let moves = force_n != 0.0 || state != State::rest(blade.order());
         let longest_s = if moves {
             sample_s.min(longest_step_s(growth))
         } else {
             sample_s
         };
         let count = (duration_s / longest_s).ceil();
-        let step_s = duration_s / count;
+        let sample_s = duration_s / count;
         let start_s = record.time_s.last().copied().unwrap_or(0.0);
-        let propagator = moves.then(|| propagator(saw, system, step_s)).transpose()?;
-        for step in 1..=count as u64 {
-            let time_s = start_s + step as f64 * step_s;
-            if let Some(propagator) = &propagator {
-                state = propagator.step(&state, [&[force_n], &[force_n]])?;
+        let system = blade.system(system);
+        let steps = steps_a_sample(&system, run.speed_rad_per_s, sample_s)?;
+        let step_s = sample_s / steps as f64;
+        let propagator = moves
+            .then(|| propagator(saw, (blade, &system), step_s))
+            .transpose()?;
+        for sample in 1..=count as u64 {
+            let time_s = start_s + sample as f64 * sample_s;
+            let mut seen = Deflections {
+                at_probe_m: 0.0,
+                largest_m: 0.0,
+            };
+            for propagator in std::iter::repeat_n(&propagator, steps).flatten() {
+                let next = propagator.step(&state, [&[force_n], &[force_n]])?;
+                let read = gauge.read([&state, &next], step_s, (run.rpm, time_s))?;
+                seen = Deflections {
+                    largest_m: seen.largest_m.max(read.largest_m),
+                    ..read
+                };
+                state = next;
             }
-            let read = gauge.read(&state.displacement, run.rpm, time_s)?;
-            if gauge.beyond(read.largest_m) {
+            if gauge.beyond(seen.largest_m) {
                 record.linear_until_s = Some(time_s);
                 return Ok(record);
             }
-            record.push(time_s, read);
+            record.push(time_s, seen);
         }
     }
     Ok(record)
 }
 
-/// The propagator under the lateral force of the teeth.
+/// The propagator of a reduced system under the lateral force of the teeth.
 fn propagator(
     saw: &SawInCut<'_>,
-    system: &GyroscopicSystem,
+    (blade, system): (&ReducedBlade, &GyroscopicSystem),
     step_s: f64,
 ) -> Result<Propagator, TransientError> {
     let lateral = lateral_load(saw.plate, &saw.cut.teeth.standing());
-    let load: Col<f64> = saw.blade.vector(&lateral);
-    let system = saw.blade.system(system);
-    Propagator::new(&system, saw.run.speed_rad_per_s, &[load], step_s)
+    let load: Col<f64> = blade.vector(&lateral);
+    Propagator::new(system, saw.run.speed_rad_per_s, &[load], step_s)
 }
 
 /// Number of samples per period of the fastest mode that the fit resolves.
@@ -217,7 +232,7 @@ fn sinusoids_in_cut(
         .min(run.duration_s / (SAMPLES - 1) as f64);
     let count = (run.duration_s / longest_s).ceil();
     let step_s = run.duration_s / count;
-    let propagator = propagator(saw, &saw.cutting_system, step_s)?;
+    let propagator = propagator(saw, (&saw.blade, &system), step_s)?;
     let mut state = State::rest(saw.blade.order());
     let force = [run.lateral_n];
     let mut record = vec![0.0];

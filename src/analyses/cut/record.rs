@@ -12,6 +12,8 @@ use crate::stability::GrowingModes;
 pub const SAMPLE_S: f64 = 1e-3;
 /// Largest number of samples of a record; longer ones have a longer sampling interval.
 pub const MAX_SAMPLES: f64 = 20_000.0;
+/// Largest number of steps from one sample to the next.
+const MOST_STEPS: f64 = 16.0;
 /// Largest exponent by which a vibration grows between two samples.
 const GROWTH_A_SAMPLE: f64 = 0.1;
 
@@ -73,7 +75,7 @@ pub struct Record {
     pub time_s: Vec<f64>,
     /// Deflection at the probe at these times.
     pub deflection_m: Vec<f64>,
-    /// Largest magnitude of the deflection of the rim at these times.
+    /// Largest magnitude of the deflection of the rim up to each of these times, since the one before.
     pub largest_m: Vec<f64>,
     /// Time at which the deflection exceeds the linear model, and the record ends; `None` if it does not.
     pub linear_until_s: Option<f64>,
@@ -86,6 +88,20 @@ impl Record {
         self.deflection_m.push(read.at_probe_m);
         self.largest_m.push(read.largest_m);
     }
+}
+
+/// Number of steps of a sample in which a step is at most a radian of the highest frequency of a reduced system, so that the
+/// deflection between two states follows from their displacements and velocities.
+///
+/// # Errors
+/// [`TransientError::Spectrum`].
+pub fn steps_a_sample(
+    system: &GyroscopicSystem,
+    speed_rad_per_s: f64,
+    sample_s: f64,
+) -> Result<usize, TransientError> {
+    let highest = fastest_mode_rad_per_s(system, speed_rad_per_s, usize::MAX)?;
+    Ok((highest * sample_s).ceil().clamp(1.0, MOST_STEPS) as usize)
 }
 
 /// Length of a step that resolves a growth rate.

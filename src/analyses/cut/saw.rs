@@ -27,10 +27,15 @@ pub(super) struct SawInCut<'a> {
     pub cutting_system: GyroscopicSystem,
     /// Reduced basis of both.
     pub blade: ReducedBlade,
+    /// Larger basis of both, for the record.
+    pub recorded: ReducedBlade,
 }
 
 /// Number of modes of the idle and of the cutting saw in the basis.
 pub(super) const MODES: usize = 14;
+/// The same number for the record. A force that begins or ends excites all modes: on a basis of 150 functions the records of three
+/// saws at the probe differ from those of all functions by up to 6 % of their largest value with 14 modes, by up to 1.5 % with 28.
+const RECORDED_MODES: usize = 42;
 
 impl<'a> SawInCut<'a> {
     /// Applies the forces to the saw and computes its lowest modes with and without them.
@@ -50,8 +55,11 @@ impl<'a> SawInCut<'a> {
             speed_rad_per_s: run.speed_rad_per_s,
         });
         let load = lateral_load(plate, &cut.teeth.standing());
-        let blade = ReducedBlade::new(plate, &snapshots, MODES, &[load])
-            .with_buckled_shapes(&systems[1])?;
+        let loads = [load];
+        let on = |modes: usize| {
+            ReducedBlade::new(plate, &snapshots, modes, &loads).with_buckled_shapes(&systems[1])
+        };
+        let (blade, recorded) = (on(MODES)?, on(RECORDED_MODES)?);
         let [idle_system, cutting_system] = systems;
         Ok(SawInCut {
             plate,
@@ -62,6 +70,7 @@ impl<'a> SawInCut<'a> {
             idle_system,
             cutting_system,
             blade,
+            recorded,
         })
     }
 

@@ -11,8 +11,8 @@ use crate::model::system::GyroscopicSystem;
 use crate::modes::Cancellation;
 use crate::motion::stretched_blade::StretchedBlade;
 use crate::motion::transient::{
-    Integrator, Newmark, ReducedBlade, Snapshot, State, StretchedProbe, TransientError, forces,
-    lateral_load, reduced_system,
+    Deflections, Integrator, Newmark, ReducedBlade, Snapshot, State, StretchedProbe,
+    TransientError, forces, lateral_load, reduced_system,
 };
 
 use super::record::{
@@ -137,6 +137,8 @@ struct Samples<'a> {
     probe: StretchedProbe,
     speed_rad_per_s: f64,
     record: Record,
+    /// Largest deflection of the rim since the last sample.
+    largest_m: f64,
     looked_s: f64,
     found: CutStretching,
 }
@@ -153,6 +155,7 @@ impl<'a> Samples<'a> {
                 largest_m: vec![0.0],
                 linear_until_s: None,
             },
+            largest_m: 0.0,
             looked_s: 0.0,
             found: CutStretching {
                 shapes: blade.shapes().ncols(),
@@ -186,7 +189,10 @@ impl<'a> Samples<'a> {
         for step in 1..=count {
             // A flat saw without a force remains flat, even if it is unstable.
             if phase.load.norm_max() > 0.0 || state.displacement.norm_max() > 0.0 {
-                *state = newmark.step(state, [&[1.0], &[1.0]])?;
+                let next = newmark.step(state, [&[1.0], &[1.0]])?;
+                let read = self.probe.read([state, &next], step_s);
+                self.largest_m = self.largest_m.max(read.largest_m);
+                *state = next;
             }
             if step % stride == 0 || step == count {
                 stop.check()?;
@@ -209,7 +215,11 @@ impl<'a> Samples<'a> {
                 return false;
             }
         }
-        self.record.push(time_s, self.probe.read(state));
+        let read = Deflections {
+            at_probe_m: self.probe.at_probe_m(state),
+            largest_m: std::mem::take(&mut self.largest_m),
+        };
+        self.record.push(time_s, read);
         true
     }
 }

@@ -3,11 +3,13 @@
 
 use super::*;
 use crate::model::plate::Resolution;
-use crate::model::scene::{Polar, SceneFile};
+use crate::model::scene::{InPlane, Mount, Polar, SceneFile};
 use crate::model::system::GyroscopicSystem;
 use crate::modes::fastest_growing;
-use crate::motion::transient::{Integrator, Propagator, State, at_point};
-use faer::Col;
+use crate::motion::transient::{Integrator, Propagator, State, at_point, lateral_load};
+use faer::{Col, Mat};
+
+use super::history::CutHistory;
 
 const SMALL: Resolution = Resolution {
     max_diameters: 6,
@@ -96,6 +98,78 @@ fn few_motions_make_the_record_of_the_full_model() {
     let end = record.time_s.partition_point(|t| *t < end_s - 1e-9);
     let few = record.deflection_m[end];
     assert!((few / whole - 1.0).abs() < 1e-3, "{few} {whole}");
+}
+
+/// A saw between collars with a stiff pad, whose modes lie close together.
+fn collar_saw(idle_s: f64) -> Scene {
+    let scene = Scene::paper().edited(|file| {
+        (file.spline, file.runup, file.measured, file.probe) = (None, None, None, None);
+        let blade = &mut file.blade;
+        (blade.outer_diameter_m, blade.inner_diameter_m) = (1.4, 0.42);
+        (blade.thickness_m, blade.teeth) = (3.2e-3, Some(57));
+        file.mount = Mount::Collar {
+            diameter_m: 0.84,
+            in_plane: InPlane::Fixed,
+        };
+        let pad = &mut file.guides[0];
+        (pad.radius_m, pad.angle_deg, pad.stiffness_n_per_m) = (0.64, 157.0, 2.57e7);
+        (pad.radial_length_m, pad.tangential_length_m) = (0.035, 0.068);
+        if let Some(cut) = &mut file.cut {
+            cut.teeth_in_cut = Some(3);
+            cut.idle_s = idle_s;
+        }
+    });
+    scene.unwrap()
+}
+
+/// The record of a saw at 640 rpm under a force of 1 N on each tooth for a tenth of a second.
+fn collar_history(idle_s: f64) -> (Plate, Cut, CutRun, CutHistory) {
+    let scene = collar_saw(idle_s);
+    let plate = Plate::new(&scene, SMALL);
+    let cut = scene.needed_cut().unwrap().clone();
+    let run = CutRun {
+        lateral_n: 1.0,
+        duration_s: 0.1,
+        ..cut.at_rpm(640.0).unwrap()
+    };
+    let saw = SawInCut::new(&plate, &cut, &run).unwrap();
+    let history = cut_history(&saw, scene.probe()).unwrap();
+    (plate, cut, run, history)
+}
+
+/// After the cut the blade swings without a force. All its functions, moved by the exact propagator in steps of 10 µs and read at 720
+/// places, deflect as far as the record says, which has samples a millisecond apart. The times at which samples are taken do not matter.
+#[test]
+fn the_largest_deflection_of_the_rim_is_that_between_the_samples() {
+    for idle_s in [0.1, 0.0951] {
+        let (plate, cut, run, history) = collar_history(idle_s);
+        let found = history.largest_deflections_m(idle_s + run.duration_s);
+        let load = lateral_load(&plate, &cut.teeth.standing());
+        let systems = [plate.in_cut(&cut, &run), plate.clone()];
+        let rim = plate.blade.outer_radius_m;
+        let places = Mat::from_fn(720, load.nrows(), |k, i| {
+            let angle = TAU * k as f64 / 720.0;
+            plate.functions_at(rim, angle)[i]
+        });
+        let mut state = State::rest(load.nrows());
+        for (k, (plate, duration_s)) in systems.iter().zip([run.duration_s, idle_s]).enumerate() {
+            let force = [if k == 0 { run.lateral_n } else { 0.0 }];
+            let system = GyroscopicSystem::of_plate(plate);
+            let steps = (duration_s / 1e-5).round() as usize;
+            let step_s = duration_s / steps as f64;
+            let loads = [load.clone()];
+            let propagator = Propagator::new(&system, run.speed_rad_per_s, &loads, step_s).unwrap();
+            let mut exact = 0.0_f64;
+            for step in 0..steps {
+                state = propagator.step(&state, [&force, &force]).unwrap();
+                if step % 4 == 0 {
+                    exact = exact.max((&places * &state.displacement).norm_max());
+                }
+            }
+            let error = found[k].unwrap() / exact - 1.0;
+            assert!(error.abs() < 0.01, "{idle_s} {k}: {found:?} {exact:e}");
+        }
+    }
 }
 
 /// Floquet multipliers of moving loads approach those of mean loads as the teeth follow each other faster. At

@@ -176,13 +176,14 @@ impl<'a> MovingLoads<'a> {
         let steps = (run.duration_s / self.step_s()).ceil() as usize;
         let mut largest = 0.0_f64;
         for step in 0..steps {
-            state = stages[step % stages.len()].step(&state, [&force, &force])?;
+            let next = stages[step % stages.len()].step(&state, [&force, &force])?;
             let time_s = (step + 1) as f64 * self.step_s();
-            let read = gauge.read(&state.displacement, run.rpm, time_s)?;
+            let read = gauge.read([&state, &next], self.step_s(), (run.rpm, time_s))?;
             if gauge.beyond(read.largest_m) {
                 return Ok(None);
             }
             largest = largest.max(read.largest_m);
+            state = next;
         }
         Ok(Some(largest))
     }

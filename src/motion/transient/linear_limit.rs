@@ -8,9 +8,9 @@ use faer::Col;
 use crate::model::plate::Plate;
 use crate::model::scene::{Blade, Point};
 
-use super::TransientError;
 use super::deflections::{Deflections, Reader};
 use super::reduced_blade::{ReducedBlade, at_point};
+use super::{State, TransientError};
 
 /// Deflections beyond this many thicknesses of the blade are not reported.
 pub const LINEAR_THICKNESSES: f64 = 5.0;
@@ -41,14 +41,14 @@ impl Gauge {
         self.reader.at_probe_m(displacement)
     }
 
-    /// Deflections of the coordinates on the basis at a time; refuses those that have overflowed.
+    /// Deflections in a step from one state on the basis to another, which ends at a time; refuses those that have overflowed.
     pub fn read(
         &self,
-        displacement: &Col<f64>,
-        rpm: f64,
-        time_s: f64,
+        states: [&State; 2],
+        step_s: f64,
+        (rpm, time_s): (f64, f64),
     ) -> Result<Deflections, TransientError> {
-        let read = self.reader.read(displacement);
+        let read = self.reader.read(states, step_s);
         if read.largest_m.is_finite() {
             Ok(read)
         } else {

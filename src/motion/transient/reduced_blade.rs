@@ -10,7 +10,9 @@ use crate::model::linalg::SymmetricEigen;
 use crate::model::plate::Plate;
 use crate::model::scene::{Polar, Tooth};
 use crate::model::system::GyroscopicSystem;
-use crate::modes::{SpectrumError, frequency_scale, lowest_eigenpairs, orthonormal, split};
+use crate::modes::{
+    SpectrumError, frequency_scale, lowest_eigenpairs, orthonormal, split, stiffened,
+};
 
 /// A system at a speed, whose lowest modes are added to the basis.
 #[derive(Debug, Clone, Copy)]
@@ -31,8 +33,8 @@ pub struct ReducedBlade {
 const INDEPENDENT: f64 = 1e-7;
 
 impl ReducedBlade {
-    /// A basis that contains the `modes` lowest modes of each snapshot and the responses (K + σD + σ²)⁻¹ b to the loads,
-    /// which are static except for free rigid motions.
+    /// A basis that contains the `modes` lowest modes of each snapshot and the static responses K⁻¹b to the loads, for which free
+    /// rigid motions have a stiffness.
     pub fn new(
         plate: &Plate,
         snapshots: &[Snapshot<'_>],
@@ -56,12 +58,8 @@ impl ReducedBlade {
                 let (re, im) = split(&q);
                 vectors.extend([re, im]);
             }
-            let mut dynamic = system.stiffness_at(*speed_rad_per_s)
-                + Scale(shift) * system.velocity_at(*speed_rad_per_s);
-            for i in 0..order {
-                dynamic[(i, i)] += shift.powi(2);
-            }
-            let factors = dynamic.partial_piv_lu();
+            let stiffness = system.stiffness_at(*speed_rad_per_s);
+            let factors = stiffened(&stiffness, &system.free_rigid).partial_piv_lu();
             for load in loads {
                 let answer = factors.solve(load);
                 let norm = answer.norm_l2();

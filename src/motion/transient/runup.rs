@@ -92,8 +92,8 @@ pub fn run_up(
         load,
         forces: &[],
     };
-    steps.integrate(&moving, begun, (stride, progress), |state, at| {
-        history.take(&gauge, state, at)
+    steps.integrate(&moving, begun, (stride, progress), |step| {
+        history.take(&gauge, step)
     })?;
     if history.deflection_m.is_empty() {
         return Err(TransientError::BentByForce {
@@ -111,6 +111,21 @@ pub(super) struct Moving<'a> {
     pub load: Col<f64>,
     /// Forces that depend on the deflection.
     pub forces: &'a [&'a dyn Force],
+}
+
+/// A step of a run-up.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Step<'a> {
+    /// The states at its beginning and at its end; the run-up begins with a step from a state to itself.
+    pub states: [&'a State; 2],
+    /// Its length.
+    pub step_s: f64,
+    /// Speed at its end.
+    pub speed_rad_per_s: f64,
+    /// Time of its end.
+    pub time_s: f64,
+    /// Whether its end is a sample of the record.
+    pub is_sample: bool,
 }
 
 /// The steps of a run-up.
@@ -141,14 +156,14 @@ impl Steps {
         self.from_rad_per_s + self.rate_rad_per_s2 * step as f64 * self.step_s
     }
 
-    /// Integrates from a state and calls `show` with every `stride`-th state, its speed in rad/s and its time in
-    /// s, until `show` returns false.
+    /// Integrates from a state and calls `show` with every step, until it returns false. Every `stride`-th state is a sample, and
+    /// so are the first and the last one.
     pub(super) fn integrate(
         &self,
         moving: &Moving<'_>,
-        mut state: State,
+        begun: State,
         (stride, progress): (usize, Progress<'_>),
-        mut show: impl FnMut(&State, (f64, f64)) -> Result<bool, TransientError>,
+        mut show: impl FnMut(Step<'_>) -> Result<bool, TransientError>,
     ) -> Result<(), TransientError> {
         let (rate, step_s) = (self.rate_rad_per_s2, self.step_s);
         let loads = [moving.load.clone()];
@@ -161,14 +176,24 @@ impl Steps {
         };
         let mut newmark = held(0);
         let stop = Cancellation::current();
+        let (mut before, mut state) = (begun.clone(), begun);
         for step in 0..=self.count {
-            if step % stride == 0 || step == self.count {
-                if !show(&state, (self.speed_at(step), step as f64 * step_s))? {
-                    break;
-                }
+            let is_sample = step % stride == 0 || step == self.count;
+            let seen = Step {
+                states: [&before, &state],
+                step_s,
+                speed_rad_per_s: self.speed_at(step),
+                time_s: step as f64 * step_s,
+                is_sample,
+            };
+            if !show(seen)? {
+                break;
+            }
+            if is_sample {
                 progress(step, self.count);
             }
-            state = newmark.step(&state, [&[1.0], &[1.0]])?;
+            before = state;
+            state = newmark.step(&before, [&[1.0], &[1.0]])?;
             if (step + 1) % HELD_STEPS == 0 {
                 stop.check()?;
                 newmark = held(step + 1);
@@ -179,21 +204,19 @@ impl Steps {
 }
 
 impl RunUpHistory {
-    /// Adds a sample; returns false if it exceeds the linear model.
-    fn take(
-        &mut self,
-        gauge: &Gauge,
-        state: &State,
-        (speed_rad_per_s, time_s): (f64, f64),
-    ) -> Result<bool, TransientError> {
-        let read = gauge.read(&state.displacement, rpm(speed_rad_per_s), time_s)?;
+    /// Adds a step; returns false if it exceeds the linear model.
+    fn take(&mut self, gauge: &Gauge, step: Step<'_>) -> Result<bool, TransientError> {
+        let speed = step.speed_rad_per_s;
+        let read = gauge.read(step.states, step.step_s, (rpm(speed), step.time_s))?;
         if gauge.beyond(read.largest_m) {
-            self.linear_until_rad_per_s = Some(speed_rad_per_s);
+            self.linear_until_rad_per_s = Some(speed);
             return Ok(false);
         }
-        self.speed_rad_per_s.push(speed_rad_per_s);
-        self.deflection_m.push(read.at_probe_m);
-        self.largest.include(read, speed_rad_per_s);
+        if step.is_sample {
+            self.speed_rad_per_s.push(speed);
+            self.deflection_m.push(read.at_probe_m);
+        }
+        self.largest.include(read, speed);
         Ok(true)
     }
 }
@@ -204,5 +227,39 @@ fn static_deflection(system: &GyroscopicSystem, speed_rad_per_s: f64, load: &Col
     match stiffness.llt(faer::Side::Lower) {
         Ok(factors) => factors.solve(load),
         Err(_) => Col::zeros(system.order()),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::model::plate::Resolution;
+    use crate::model::scene::Scene;
+
+    /// A run-up begins with the deflection K⁻¹f of all functions at the probe, also of a saw with a strong damper.
+    #[test]
+    fn a_run_up_begins_in_the_static_deflection_of_the_full_model() {
+        let scene = Scene::paper()
+            .edited(|file| {
+                file.guides[0].damping_n_s_per_m = 1e4;
+                let runup = file.runup.as_mut().unwrap();
+                (runup.from_rpm, runup.to_rpm, runup.duration_s) = (300.0, 400.0, 0.1);
+            })
+            .unwrap();
+        let resolution = Resolution {
+            max_diameters: 12,
+            radial_functions: 6,
+        };
+        let plate = Plate::new(&scene, resolution);
+        let (runup, force, probe) = (scene.runup().unwrap(), scene.side_force(), scene.probe());
+        let stiffness =
+            GyroscopicSystem::of_plate(&plate).stiffness_at(runup.speeds().from_rad_per_s);
+        let load = at_point(&plate, force.at.polar());
+        let exact = force.force_n
+            * (at_point(&plate, probe.polar()).transpose()
+                * stiffness.partial_piv_lu().solve(&load));
+        let history = run_up(&plate, (runup, &force), probe, 300.0, &|_, _| ()).unwrap();
+        let begun = history.deflection_m[0];
+        assert!((begun / exact - 1.0).abs() < 1e-7, "{begun:e} {exact:e}");
     }
 }

@@ -31,8 +31,13 @@ impl StretchedProbe {
         slope <= LARGEST_SLOPE
     }
 
-    /// Deflections at the probe and around the rim.
-    pub fn read(&self, state: &State) -> Deflections {
-        self.reader.read(&state.displacement)
+    /// Deflection at the probe.
+    pub fn at_probe_m(&self, state: &State) -> f64 {
+        self.reader.at_probe_m(&state.displacement)
+    }
+
+    /// Deflections at the probe and around the rim in a step from one state to another.
+    pub fn read(&self, states: [&State; 2], step_s: f64) -> Deflections {
+        self.reader.read(states, step_s)
     }
 }

@@ -10,7 +10,7 @@ use crate::modes::branches::Progress;
 use crate::motion::stretched_blade::StretchedBlade;
 
 use super::deflections::Largest;
-use super::runup::{MAX_SAMPLES, Moving, RunUpHistory, Steps};
+use super::runup::{MAX_SAMPLES, Moving, RunUpHistory, Step, Steps};
 use super::stretched_probe::StretchedProbe;
 use super::stretching::{forces, system};
 use super::{State, TransientError};
@@ -85,8 +85,8 @@ pub fn stretched_run_up(
         largest: Largest::from(from),
         valid_until_rad_per_s: None,
     };
-    steps.integrate(&moving, begun, (STRIDE, progress), |state, (speed, _)| {
-        Ok(samples.take(state, speed))
+    steps.integrate(&moving, begun, (STRIDE, progress), |step| {
+        Ok(samples.take(step))
     })?;
     if samples.deflection_m.is_empty() {
         return Err(TransientError::SteepByForce {
@@ -122,17 +122,20 @@ struct Samples {
 }
 
 impl Samples {
-    /// Adds a sample; returns false if slopes are too large.
-    fn take(&mut self, state: &State, speed_rad_per_s: f64) -> bool {
-        let is_looked_at = self.deflection_m.len().is_multiple_of(LOOKED);
+    /// Adds a step; returns false if slopes are too large.
+    fn take(&mut self, step: Step<'_>) -> bool {
+        let (speed, [_, state]) = (step.speed_rad_per_s, step.states);
+        let is_looked_at = step.is_sample && self.deflection_m.len().is_multiple_of(LOOKED);
         if is_looked_at && !self.probe.holds(state) {
-            self.valid_until_rad_per_s = Some(speed_rad_per_s);
+            self.valid_until_rad_per_s = Some(speed);
             return false;
         }
-        self.speed_rad_per_s.push(speed_rad_per_s);
-        let read = self.probe.read(state);
-        self.deflection_m.push(read.at_probe_m);
-        self.largest.include(read, speed_rad_per_s);
+        let read = self.probe.read(step.states, step.step_s);
+        if step.is_sample {
+            self.speed_rad_per_s.push(speed);
+            self.deflection_m.push(read.at_probe_m);
+        }
+        self.largest.include(read, speed);
         true
     }
 
