@@ -6,11 +6,12 @@ use rayon::prelude::*;
 use super::error::DeflectError;
 use super::options::{Options, steep};
 use crate::model::plate::{Plate, Resolution};
-use crate::model::scene::{Scene, SideForce, SpeedRange};
+use crate::model::scene::{Scene, SideForce, SpeedRange, rpm};
 use crate::modes::{Cancellation, Work};
 use crate::motion::stretched_blade::{
-    Branch, Equilibrium, Extent, LARGEST_SLOPE, StretchedBlade, StretchedError, Sweep,
+    Branch, BranchEnd, Equilibrium, Extent, LARGEST_SLOPE, StretchedBlade, StretchedError, Sweep,
 };
+use crate::page::text::shown_to;
 use crate::stability::Analysis;
 
 /// Initial number of modes at rest, in addition to the shapes that diverge and the response to the force.
@@ -36,8 +37,8 @@ pub(super) struct Equilibria {
     pub up: Sweep,
     /// Stable equilibria for falling speed, starting from the last one of `up`.
     pub down: Sweep,
-    /// All curves of equilibria that were found, including unstable ones.
-    pub curves: Vec<Branch>,
+    /// The curves of equilibria, including unstable ones.
+    pub curves: Curves,
     /// Counts the parts; the last one, the evaluation, ends with this value.
     _parts: Work,
 }
@@ -90,16 +91,55 @@ impl Equilibria {
             _parts: parts,
         })
     }
+}
 
-    /// Remark on curves that end at the largest number of equilibria of a figure.
-    pub fn cut_off(&self) -> Option<String> {
-        let count = self.curves.iter().filter(|curve| !curve.is_whole).count();
-        (count > 0).then(|| {
-            format!(
-                "{count} of {} curves of equilibria end at the largest number of equilibria of a figure, within the range of speeds",
-                self.curves.len()
-            )
-        })
+/// Curves of equilibria, and the number of those that are missing.
+#[derive(Default)]
+pub(super) struct Curves {
+    /// The curves that were followed.
+    pub found: Vec<Branch>,
+    /// Number of curves beyond [`MOST_CURVES`].
+    omitted: usize,
+    /// Number of curves of which only the start is known.
+    unfollowed: usize,
+}
+
+impl Curves {
+    /// Remarks on curves that end within the range of speeds, or are missing.
+    pub fn remarks(&self) -> Vec<String> {
+        let all = self.found.len();
+        let ending = |end: BranchEnd| self.found.iter().filter(move |curve| curve.end == end);
+        let mut remarks = Vec::new();
+        let cut_off = ending(BranchEnd::Most).count();
+        if cut_off > 0 {
+            remarks.push(format!(
+                "{cut_off} of {all} curves of equilibria end at the largest number of equilibria of a figure, within the range of speeds"
+            ));
+        }
+        let lost: Vec<String> = ending(BranchEnd::Lost)
+            .filter_map(|curve| curve.equilibria.last())
+            .map(|last| shown_to(4, rpm(last.speed_rad_per_s)))
+            .collect();
+        if !lost.is_empty() {
+            remarks.push(format!(
+                "{} of {all} curves of equilibria could not be followed beyond {} rpm",
+                lost.len(),
+                lost.join(", ")
+            ));
+        }
+        if self.unfollowed > 0 {
+            remarks.push(format!(
+                "curves of equilibria through {} equilibria could not be followed and are missing",
+                self.unfollowed
+            ));
+        }
+        if self.omitted > 0 {
+            remarks.push(format!(
+                "more than {MOST_CURVES} curves of equilibria exist; those through {} further equilibria are not computed",
+                self.omitted
+            ));
+        }
+        remarks
     }
 }
 
@@ -219,8 +259,8 @@ fn curves(
     blade: &StretchedBlade,
     range: SpeedRange,
     sweeps: [(&Sweep, bool); 2],
-) -> Result<Vec<Branch>, DeflectError> {
-    let mut curves: Vec<Branch> = Vec::new();
+) -> Result<Curves, DeflectError> {
+    let mut curves = Curves::default();
     for (sweep, upwards) in sweeps {
         for arc in &sweep.arcs {
             let ends = [(arc.first(), upwards), (arc.last(), !upwards)];
@@ -248,6 +288,7 @@ fn curves(
         let Ok(leaned) = unforced.leaned_near(above, &shape) else {
             continue;
         };
+        // A side force may move the curve on one side to higher speeds, where the mirror images lead to it.
         for side in [1.0, -1.0] {
             let guess = faer::Scale(side) * &leaned;
             if let Ok(start) = blade.equilibrium(above, Some(&guess)) {
@@ -290,22 +331,32 @@ const MOST_CURVES: usize = 24;
 /// Adds the curve through an equilibrium, followed in each of the directions, unless it is known already.
 fn add_curve(
     blade: &StretchedBlade,
-    curves: &mut Vec<Branch>,
+    curves: &mut Curves,
     (start, sides): (&Equilibrium, &[bool]),
     range: SpeedRange,
 ) -> Result<(), DeflectError> {
     Cancellation::current()
         .check()
         .map_err(StretchedError::from)?;
-    if curves.len() >= MOST_CURVES || is_known(blade, curves, start) {
+    if is_known(blade, &curves.found, start) {
         return Ok(());
     }
-    // A curve that cannot be followed is omitted.
+    if curves.found.len() >= MOST_CURVES {
+        curves.omitted += 1;
+        return Ok(());
+    }
     let followed = sides
         .par_iter()
-        .map(|upwards| blade.branch(start, *upwards, range, Extent::Drawn).ok());
-    let followed: Vec<Option<Branch>> = followed.collect();
-    curves.extend(followed.into_iter().flatten());
+        .map(|upwards| blade.branch(start, *upwards, range, Extent::Drawn));
+    let followed: Vec<Result<Branch, StretchedError>> = followed.collect();
+    for curve in followed {
+        match curve {
+            // A curve that ends at its start leads nowhere on this side.
+            Ok(curve) if curve.equilibria.len() > 1 => curves.found.push(curve),
+            Ok(_) | Err(StretchedError::NotFound { .. }) => curves.unfollowed += 1,
+            Err(other) => return Err(other.into()),
+        }
+    }
     Ok(())
 }
 

@@ -81,12 +81,13 @@ pub fn deflect(scene: &Scene, options: &Options) -> Result<DeflectReport, Deflec
         down: reader.sweep(&found.down)?,
         curves: found
             .curves
+            .found
             .iter()
             .map(|curve| reader.curve(curve))
             .collect(),
         critical_speeds: chart.critical_speeds,
         instabilities: chart.instabilities,
         campbell: chart.campbell,
-        warnings: of_chart.chain(found.cut_off()).collect(),
+        warnings: of_chart.chain(found.curves.remarks()).collect(),
     })
 }

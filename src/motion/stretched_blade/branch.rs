@@ -16,8 +16,19 @@ pub struct Branch {
     pub equilibria: Vec<Equilibrium>,
     /// Points at which ∂²V/∂p² is singular, in the order of the curve.
     pub turns: Vec<Turn>,
-    /// Whether the curve ends where its extent says, and not at the largest number of equilibria.
-    pub is_whole: bool,
+    /// Where the curve ends.
+    pub end: BranchEnd,
+}
+
+/// End of a curve of equilibria.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum BranchEnd {
+    /// Where its extent says.
+    Reached,
+    /// At the largest number of equilibria.
+    Most,
+    /// Within the range of speeds, because no shorter step leads to another equilibrium.
+    Lost,
 }
 
 /// A fold or a bifurcation of a curve of equilibria.
@@ -82,7 +93,8 @@ impl StretchedBlade {
     ///
     /// # Errors
     /// [`StretchedError::Value`] for an empty range or one that does not contain the start;
-    /// [`StretchedError::Axisymmetric`]; [`StretchedError::NotFound`] if the curve cannot be followed.
+    /// [`StretchedError::Axisymmetric`]; [`StretchedError::NotFound`] if the curve has no direction at the start, or no equilibrium at
+    /// the end of the range.
     pub fn branch(
         &self,
         start: &Equilibrium,
@@ -124,17 +136,15 @@ impl StretchedBlade {
         let mut branch = Branch {
             equilibria: vec![start.clone()],
             turns: Vec::new(),
-            is_whole: false,
+            end: BranchEnd::Most,
         };
         let mut step = 0.1 * LONGEST;
         while branch.equilibria.len() < extent.most() {
             let Some((next, iterations)) = curve.advanced(&place, step)? else {
                 step *= 0.5;
                 if step < SHORTEST * LONGEST {
-                    return Err(self.not_found(
-                        &place.equilibrium.coordinates,
-                        place.equilibrium.speed_rad_per_s,
-                    ));
+                    branch.end = BranchEnd::Lost;
+                    break;
                 }
                 continue;
             };
@@ -147,12 +157,12 @@ impl StretchedBlade {
                     .turns
                     .retain(|turn| range.contains(turn.equilibrium.speed_rad_per_s));
                 branch.equilibria.push(last);
-                branch.is_whole = true;
+                branch.end = BranchEnd::Reached;
                 break;
             }
             branch.equilibria.push(next.equilibrium.clone());
             if extent == Extent::ToTurn && !branch.turns.is_empty() {
-                branch.is_whole = true;
+                branch.end = BranchEnd::Reached;
                 break;
             }
             place = next;
@@ -161,6 +171,25 @@ impl StretchedBlade {
             }
         }
         Ok(branch)
+    }
+}
+
+/// An end of an interval along a curve in which a turn is.
+struct End {
+    step: f64,
+    /// The quantity that is zero at the turn.
+    value: f64,
+    /// The value that false position uses.
+    weight: f64,
+    equilibrium: Equilibrium,
+}
+
+/// The coordinates and the speed at a share of the line from one equilibrium to another, with the number of eigenvalues of the first.
+fn between(from: &Equilibrium, to: &Equilibrium, share: f64) -> Equilibrium {
+    Equilibrium {
+        speed_rad_per_s: from.speed_rad_per_s + share * (to.speed_rad_per_s - from.speed_rad_per_s),
+        coordinates: &from.coordinates + Scale(share) * (&to.coordinates - &from.coordinates),
+        negative_eigenvalues: from.negative_eigenvalues,
     }
 }
 
@@ -265,28 +294,54 @@ impl Curve<'_> {
             let values = self.blade.stiffnesses(&e.coordinates, e.speed_rad_per_s)?;
             Ok(values[counts[0].min(counts[1])])
         };
-        let mut ends = [(0.0, value(from)?), (step, value(to)?)];
-        let scale = ends[0].1.abs().max(ends[1].1.abs());
-        let mut found = to.equilibrium.clone();
+        let end = |step: f64, place: &Place| -> Result<End, StretchedError> {
+            let value = value(place)?;
+            Ok(End {
+                step,
+                value,
+                weight: value,
+                equilibrium: place.equilibrium.clone(),
+            })
+        };
+        let mut ends = [end(0.0, from)?, end(step, to)?];
+        let scale = ends[0].value.abs().max(ends[1].value.abs());
         for _ in 0..ITERATIONS {
-            let [(low, at_low), (high, at_high)] = ends;
-            let middle = low - at_low * (high - low) / (at_high - at_low);
-            let Some((place, _)) = self.advanced(from, middle)? else {
-                break;
+            let [low, high] = &ends;
+            let width = high.step - low.step;
+            let middle = low.step - low.weight * width / (high.weight - low.weight);
+            // At a bifurcation the equations of a correction are singular, so that next to it none may converge, or one converges
+            // to the other curve: there the interval is made shorter from both ends.
+            let either = [0.5 * (low.step + middle), 0.5 * (middle + high.step)];
+            let asked = match self.advanced(from, middle)? {
+                Some(found) => [Some((middle, found)), None],
+                None => {
+                    let of = |step: f64| -> Result<_, StretchedError> {
+                        Ok(self.advanced(from, step)?.map(|found| (step, found)))
+                    };
+                    [of(either[0])?, of(either[1])?]
+                }
             };
-            let at = value(&place)?;
-            found = place.equilibrium;
-            if at.abs() < LAST * scale {
+            let mut is_found = asked.iter().all(Option::is_none) || width <= LAST * step;
+            for (step, (place, _)) in asked.into_iter().flatten() {
+                if !(ends[0].step..=ends[1].step).contains(&step) {
+                    continue;
+                }
+                let new = end(step, &place)?;
+                is_found |= new.value.abs() < LAST * scale;
+                // The weight of the end that is kept is halved at every step, a variant of the Illinois method.
+                let is_low = (new.value < 0.0) == (ends[0].value < 0.0);
+                ends[usize::from(is_low)].weight *= 0.5;
+                ends[usize::from(!is_low)] = new;
+            }
+            if is_found {
                 break;
             }
-            // The function value at the end that is kept is halved at every step, a variant of the Illinois
-            // method.
-            ends = if (at < 0.0) == (at_low < 0.0) {
-                [(middle, at), (high, 0.5 * at_high)]
-            } else {
-                [(low, 0.5 * at_low), (middle, at)]
-            };
         }
+        let [low, high] = &ends;
+        // A value that is zero within rounding at both ends does not change its sign.
+        let share = (low.value / (low.value - high.value)).clamp(0.0, 1.0);
+        let share = if share.is_nan() { 0.5 } else { share };
+        let mut found = between(&low.equilibrium, &high.equilibrium, share);
         found.negative_eigenvalues = counts[0];
         // If the curve turns back while the number of negative eigenvalues stays the same, the point is not a
         // fold but a pitchfork, at which the curve touches another one.

@@ -31,7 +31,7 @@ mod sites;
 mod slopes;
 mod sweep;
 
-pub use branch::{Branch, Extent, Turn, TurnKind};
+pub use branch::{Branch, BranchEnd, Extent, Turn, TurnKind};
 pub use equilibrium::Equilibrium;
 pub use flutter_rise::FlutterRise;
 pub(crate) use pressed_blade::{Deviation, PressedBlade};

@@ -4,7 +4,7 @@ use faer::Col;
 
 use crate::modes::Cancellation;
 
-use super::{Equilibrium, Extent, StretchedBlade, StretchedError, Turn};
+use super::{BranchEnd, Equilibrium, Extent, StretchedBlade, StretchedError, Turn};
 use crate::model::scene::SpeedRange;
 
 /// Stable equilibria in sequence, and the jumps between them.
@@ -57,6 +57,9 @@ impl StretchedBlade {
         for _ in 0..MOST_ARCS {
             Cancellation::current().check()?;
             let curve = self.branch(&start, upwards, range, Extent::ToTurn)?;
+            if let (BranchEnd::Lost, Some(last)) = (curve.end, curve.equilibria.last()) {
+                return Err(self.not_found(&last.coordinates, last.speed_rad_per_s));
+            }
             let turn = curve.turns.first();
             let is_before_turn = |e: &&Equilibrium| match turn {
                 None => true,
@@ -80,7 +83,7 @@ impl StretchedBlade {
                 arc.append(&mut stable);
             }
             let Some(turn) = turn else {
-                sweep.stopped_rad_per_s = (!curve.is_whole).then_some(last);
+                sweep.stopped_rad_per_s = (curve.end == BranchEnd::Most).then_some(last);
                 return Ok(sweep);
             };
             let past = last + sign * PAST * range.width();

@@ -396,3 +396,59 @@ fn unrestrained_blades_and_other_ranges_are_refused() {
     assert!(matches!(below, Err(StretchedError::NotFound { .. })));
     assert!(blade.pressed(f64::INFINITY, Polar::new(0.3, 0.0)).is_err());
 }
+
+/// At every fold and bifurcation of the curves of a saw on six equal pads, whose symmetries are many, the forces balance and ∂²V/∂p² is
+/// singular: its smallest eigenvalue is one of rounding beside those a step away.
+#[test]
+fn turns_are_equilibria_at_which_the_stiffness_is_singular() {
+    let scene = Scene::paper().edited(|file| {
+        let pad = file.guides[0].clone();
+        file.guides = (0..6)
+            .map(|k| {
+                let mut pad = pad.clone();
+                pad.angle_deg = -150.0 + 60.0 * f64::from(k);
+                (pad.radius_m, pad.stiffness_n_per_m) = (0.25, 1e7);
+                (pad.radial_length_m, pad.tangential_length_m) = (0.06, 0.06);
+                pad
+            })
+            .collect();
+    });
+    let plate = Plate::new(&scene.unwrap(), RESOLUTION);
+    let range = SpeedRange::between_rpm(0.0, 6100.0);
+    let place = Polar::new(plate.blade.outer_radius_m, 0.0);
+    let blade = StretchedBlade::up_to(&plate, range.to_rad_per_s, place, 16).unwrap();
+    let blade = blade.pressed(1.0, place).unwrap();
+    let unforced = blade.clone().unforced();
+    let mut turns = 0;
+    for (critical, shape) in unforced.pitchforks().unwrap().into_iter().take(6) {
+        let above = critical * 1.004;
+        if !range.contains(above) {
+            continue;
+        }
+        let near = unforced.leaned_near(above, &shape).unwrap();
+        let Ok(start) = blade.equilibrium(above, Some(&near)) else {
+            continue;
+        };
+        let curve = blade.branch(&start, true, range, Extent::Drawn).unwrap();
+        for turn in &curve.turns {
+            let Equilibrium {
+                coordinates,
+                speed_rad_per_s,
+                ..
+            } = &turn.equilibrium;
+            let values = blade.stiffnesses(coordinates, *speed_rad_per_s).unwrap();
+            let smallest = values.iter().map(|x| x.abs()).fold(f64::INFINITY, f64::min);
+            let change = speed_rad_per_s.powi(2);
+            assert!(
+                smallest < 1e-5 * change,
+                "{:?} at {speed_rad_per_s}: {smallest:e} {change:e}",
+                turn.kind
+            );
+            let rest = blade.residual(coordinates, *speed_rad_per_s).unwrap();
+            let elastic = blade.system.stiffness_at(*speed_rad_per_s) * coordinates;
+            assert!(rest.norm_l2() < 1e-5 * elastic.norm_l2().max(blade.force.norm_l2()));
+            turns += 1;
+        }
+    }
+    assert!(turns > 2, "{turns}");
+}
