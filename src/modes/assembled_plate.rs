@@ -3,6 +3,7 @@
 use std::sync::OnceLock;
 
 use faer::Col;
+use faer::linalg::solvers::Solve;
 
 use super::buckling;
 use super::component::Component;
@@ -13,6 +14,9 @@ use super::resting_mode::{RestingMode, modes_at_rest};
 use super::structured_stiffness::{LARGE, StructuredStiffness};
 use super::work::Cancellation;
 use crate::model::plate::Plate;
+
+/// Largest residual of a solution by the structure, relative to the load; a larger one is that of a block that is nearly singular.
+const SOLVED: f64 = 1e-7;
 
 /// Speed up to which critical speeds are needed, given those found so far, ascending, in rad/s.
 pub type SpeedLimit<'a> = &'a dyn Fn(&[f64]) -> f64;
@@ -97,6 +101,37 @@ impl Assembled {
             Ok(found) => Ok(named(&self.plate, &self.components, found)),
             Err(error) => Err(buckling::explained(&self.plate, error)),
         }
+    }
+
+    /// A vector in the basis of the plate, from one in the unknowns of a component.
+    pub fn on_plate(&self, component: usize, own: &Col<f64>) -> Col<f64> {
+        let first = self.components[component].first;
+        let mut whole = Col::zeros(self.plate.degrees_of_freedom());
+        whole.subrows_mut(first, own.nrows()).copy_from(own);
+        whole
+    }
+
+    /// Deflection K(Ω)⁻¹f under a load at a speed; not finite where K(Ω) is singular.
+    pub fn deflected(&self, speed_rad_per_s: f64, load: &Col<f64>) -> Col<f64> {
+        if let Some((structure, only)) = self.structured()
+            && only.full.is_conservative()
+            && let Some(eliminated) = structure.full.eliminated_stiffness(speed_rad_per_s)
+        {
+            let found = eliminated.solve(load.as_mat()).col(0).to_owned();
+            let rest = only.full.stiffness_at(speed_rad_per_s) * &found - load;
+            if rest.norm_l2() <= SOLVED * load.norm_l2() {
+                return found;
+            }
+        }
+        let mut found = Col::zeros(load.nrows());
+        for Component { first, full, .. } in &self.components {
+            let own = load.subrows(*first, full.order());
+            let factors = full.stiffness_at(speed_rad_per_s).partial_piv_lu();
+            found
+                .subrows_mut(*first, full.order())
+                .copy_from(factors.solve(own));
+        }
+        found
     }
 
     /// The lowest `count` modes at rest, ascending, without damping and without free rigid motions.
@@ -250,6 +285,28 @@ mod tests {
                     assert!(*now < before * (1.0 + 1e-11), "{now} {before}");
                 }
                 before = Some(found);
+            }
+        }
+    }
+
+    /// At rest, between and above critical speeds, compared with a factorization of the whole matrix.
+    #[test]
+    fn deflections_by_structure_are_those_of_the_whole_matrix() {
+        let resolution = Resolution {
+            max_diameters: 20,
+            radial_functions: 7,
+        };
+        for scene in [pads(1, 1e7), pads(2, 1e5)] {
+            let assembled = Assembled::from(Plate::new(&scene, resolution));
+            assert!(assembled.is_structured());
+            let values = assembled.plate.functions_at(0.3, 1.2);
+            let load = Col::from_fn(values.len(), |i| values[i]);
+            for rpm in [0.0, 1000.0, 2500.0] {
+                let found = assembled.deflected(rad_per_s(rpm), &load);
+                let whole = assembled.components[0].full.stiffness_at(rad_per_s(rpm));
+                let exact = whole.partial_piv_lu().solve(&load);
+                let error = (&found - &exact).norm_l2() / exact.norm_l2();
+                assert!(error < 1e-8, "{rpm}: {error:e}");
             }
         }
     }

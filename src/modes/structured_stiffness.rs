@@ -34,7 +34,7 @@ impl StructuredStiffness {
 
     fn by(full: FullModel) -> Option<Self> {
         Cancellation::current().check().ok()?;
-        let at_rest = full.eliminated_at_rest()?;
+        let at_rest = full.eliminated_stiffness(0.0)?;
         Some(StructuredStiffness { full, at_rest })
     }
 }

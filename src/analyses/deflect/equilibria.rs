@@ -9,7 +9,8 @@ use crate::model::plate::{Plate, Resolution};
 use crate::model::scene::{Scene, SideForce, SpeedRange, rpm};
 use crate::modes::{Cancellation, Work};
 use crate::motion::stretched_blade::{
-    Branch, BranchEnd, Equilibrium, Extent, LARGEST_SLOPE, StretchedBlade, StretchedError, Sweep,
+    Branch, BranchEnd, Equilibrium, Extent, ForcedPlate, LARGEST_SLOPE, StretchedBlade,
+    StretchedError, Sweep,
 };
 use crate::page::text::shown_to;
 use crate::stability::Analysis;
@@ -61,16 +62,12 @@ impl Equilibria {
         let range = analysis.range_rad_per_s;
         let plate = &analysis.model.plate;
         let parts = Work::of("parts of the deflection", PARTS);
-        let blade = StretchedBlade::under(
-            force,
-            plate,
-            range.to_rad_per_s,
-            MODES.min(plate.degrees_of_freedom()),
-        )?;
+        let forced = ForcedPlate::new(plate, range.to_rad_per_s, &[(force.at.polar(), 1.0)])?;
+        let blade = under(force, &forced, MODES.min(plate.degrees_of_freedom()))?;
         if let Some(gentle_n) = gentler(force, &blade, range.from_rad_per_s)? {
             return Err(steep(force, gentle_n).into());
         }
-        let (blade, up, relative_error) = resolved(force, plate, blade, range)?;
+        let (blade, up, relative_error) = resolved(force, (&forced, plate), blade, range)?;
         parts.advance();
         let top = up
             .arcs
@@ -194,22 +191,25 @@ const TENTHS: i32 = 9;
 /// Number of halvings, on a logarithmic scale, of the interval between a tenth and the next: to one percent.
 const HALVINGS: usize = 8;
 
+/// The blade under a side force, with a number of modes at rest.
+pub(super) fn under(
+    force: &SideForce,
+    forced: &ForcedPlate,
+    modes: usize,
+) -> Result<StretchedBlade, StretchedError> {
+    let blade = forced.blade(modes, &[])?;
+    blade.pressed(force.force_n, force.at.polar())
+}
+
 /// A blade with so many shapes that half as many modes more hardly change the deflection, its sweep for rising speed,
 /// and the relative change with more modes; `None` for the change if the blade remains flat.
 fn resolved(
     force: &SideForce,
-    plate: &Plate,
+    (forced, plate): (&ForcedPlate, &Plate),
     mut blade: StretchedBlade,
     range: SpeedRange,
 ) -> Result<(StretchedBlade, Sweep, Option<f64>), DeflectError> {
-    let on = |modes: usize| {
-        StretchedBlade::under(
-            force,
-            plate,
-            range.to_rad_per_s,
-            modes.min(plate.degrees_of_freedom()),
-        )
-    };
+    let on = |modes: usize| under(force, forced, modes.min(plate.degrees_of_freedom()));
     let mut modes = MODES;
     loop {
         let more = modes + modes / 2;

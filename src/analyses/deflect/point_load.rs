@@ -6,6 +6,7 @@ use faer::linalg::solvers::Solve;
 use crate::model::plate::Plate;
 use crate::model::scene::{Polar, Scene};
 use crate::model::system::GyroscopicSystem;
+use crate::modes::Assembled;
 use crate::stability::ahead;
 
 /// A force fixed in space while the saw turns, at a point or on some points.
@@ -45,7 +46,14 @@ impl PointLoad {
 
 /// Compliance at rest at a place.
 fn at_rest_m_per_n(plate: &Plate, place: Polar) -> Option<f64> {
-    PointLoad::new(plate, place)?.compliance_m_per_n(0.0)
+    let saw = Assembled::from(plate.clone());
+    let mut parts = saw.components.iter();
+    if !parts.all(|component| component.full.free_rigid.is_empty()) {
+        return None;
+    }
+    let point = plate.load_at(&[(place, 1.0)]);
+    let compliance = point.transpose() * saw.deflected(0.0, &point);
+    compliance.is_finite().then_some(compliance)
 }
 
 /// Estimated relative error of the compliance at rest on the basis of a plate. `None` if the blade is not held, or

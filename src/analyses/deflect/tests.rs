@@ -2,11 +2,11 @@
 
 use faer::Col;
 
-use super::equilibria::MODES;
+use super::equilibria::{MODES, under};
 use super::*;
 use crate::model::plate::Plate;
 use crate::model::scene::{Accuracy, Polar, SideForceFile, SpeedRange, rad_per_s};
-use crate::motion::stretched_blade::{Equilibrium, StretchedBlade};
+use crate::motion::stretched_blade::{Equilibrium, ForcedPlate};
 use crate::stability::ChosenBasis;
 
 /// The paper's saw under a side force.
@@ -107,8 +107,9 @@ fn every_equilibrium_that_the_blade_reaches_is_on_a_curve() {
     let report = deflect(&draft(), &options).unwrap();
     let speed = rad_per_s(2000.0);
     let plate = plate(2200.0);
-    let blade =
-        StretchedBlade::under(&draft().side_force(), &plate, rad_per_s(2200.0), MODES).unwrap();
+    let force = draft().side_force();
+    let forced = ForcedPlate::new(&plate, rad_per_s(2200.0), &[(force.at.polar(), 1.0)]).unwrap();
+    let blade = under(&force, &forced, MODES).unwrap();
     let probe = draft().probe();
     let mut seen = Vec::new();
     for k in 0..12 {

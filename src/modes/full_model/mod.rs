@@ -123,10 +123,10 @@ impl FullModel {
         Elimination::new(blocks?, &parts)
     }
 
-    /// K₀ with all columns, because changes by a larger basis are small and involve stiff guides. Heave and
-    /// tilt may have no stiffness except that of the guides: their blocks are stiffened, and further columns
+    /// K(Ω) of a blade without damping, with all columns, because changes by a larger basis are small and involve stiff guides.
+    /// Heave and tilt may have no stiffness except that of the guides: their blocks are stiffened, and further columns
     /// subtract the added stiffness. `None` with loads at the rim, or if a block is singular.
-    pub fn eliminated_at_rest(&self) -> Option<Elimination<f64>> {
+    pub fn eliminated_stiffness(&self, speed_rad_per_s: f64) -> Option<Elimination<f64>> {
         let Coupling::Columns(springs) = &self.coupling else {
             return None;
         };
@@ -135,7 +135,10 @@ impl FullModel {
             .harmonics
             .iter()
             .map(|harmonic| {
-                let mut block = harmonic.rest.clone();
+                // A shape that is fixed in space turns on the blade, with the inertia of n²Ω².
+                let mut block = harmonic.stiffness(speed_rad_per_s);
+                let turned = (harmonic.diameters as f64 * speed_rad_per_s).powi(2);
+                (0..harmonic.radial()).for_each(|i| block[(i, i)] -= turned);
                 if harmonic.diameters <= 1 {
                     block[(0, 0)] += harmonic.shift;
                     held.extend(

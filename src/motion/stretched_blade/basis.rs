@@ -1,13 +1,12 @@
 //! Bases of a few shapes for a blade that stretches.
 
-use faer::linalg::solvers::Solve;
 use faer::{Col, Mat, Scale};
 
 use crate::model::linalg::SymmetricEigen;
 use crate::model::plate::{GapPotential, Plate, ReducedStretching, Stretching};
 use crate::model::system::GyroscopicSystem;
 use crate::modes::{
-    SpectrumError, critical_speeds, frequency_scale, lowest_eigenpairs, orthonormal, split,
+    Assembled, SpectrumError, frequency_scale, lowest_eigenpairs, orthonormal, split,
 };
 
 use super::{StretchedBlade, StretchedError, finite};
@@ -82,20 +81,7 @@ impl StretchedBlade {
         modes: usize,
         further: &[Col<f64>],
     ) -> Result<Self, StretchedError> {
-        finite("the speed in rad/s", to_rad_per_s)?;
-        let plate = plate.conservative();
-        let full = restrained(&plate, modes)?;
-        let order = full.order();
-        let rest = at_rest(&full)?;
-        let critical = critical_speeds(&full)?.into_iter();
-        let diverging = critical.take_while(|c| c.speed_rad_per_s <= to_rad_per_s);
-        let mut shapes: Vec<Col<f64>> = diverging.map(|c| c.shape).collect();
-        let force = plate.load_at(places);
-        shapes.extend(bent(&full, &force, to_rad_per_s));
-        shapes.extend((0..modes).map(|k| rest.vectors.col(k).to_owned()));
-        shapes.extend_from_slice(further);
-        let basis = orthonormal(order, &shapes, INDEPENDENT);
-        Self::on(plate, &full, basis)
+        ForcedPlate::new(plate, to_rad_per_s, places)?.blade(modes, further)
     }
 
     /// The blade in a basis of given shapes, orthonormal columns in the functions of the plate.
@@ -116,8 +102,18 @@ impl StretchedBlade {
         shapes: Mat<f64>,
     ) -> Result<Self, StretchedError> {
         let stretching = Stretching::new(&plate)?;
+        Self::stretched(plate, full, &stretching, shapes)
+    }
+
+    /// As [`StretchedBlade::on`], with a known potential of stretching.
+    fn stretched(
+        plate: Plate,
+        full: &GyroscopicSystem,
+        stretching: &Stretching,
+        shapes: Mat<f64>,
+    ) -> Result<Self, StretchedError> {
         let Some(released) = GyroscopicSystem::of_released(&plate) else {
-            return Self::with(plate, &stretching, full, shapes);
+            return Self::with(plate, stretching, full, shapes);
         };
         let order = released.order();
         let modes = at_rest(&released)?;
@@ -127,7 +123,7 @@ impl StretchedBlade {
         let all: Vec<Col<f64>> = own.chain(of_released).collect();
         let shapes = orthonormal(order, &all, INDEPENDENT);
         let gaps = GapPotential::new(&plate, shapes.as_ref());
-        let blade = Self::with(plate, &stretching, &released, shapes)?;
+        let blade = Self::with(plate, stretching, &released, shapes)?;
         Ok(StretchedBlade { gaps, ..blade })
     }
 
@@ -149,14 +145,85 @@ impl StretchedBlade {
     }
 }
 
+/// A plate under a force on some points, with the part of [`StretchedBlade::up_to`] that no number of modes changes.
+pub(crate) struct ForcedPlate {
+    saw: Assembled,
+    full: GyroscopicSystem,
+    stretching: Stretching,
+    /// Shapes of the critical speeds, and deflections of the linear model.
+    shapes: Vec<Col<f64>>,
+}
+
+impl ForcedPlate {
+    /// The plate for equilibria up to a speed, with a force on some points, each with its share.
+    ///
+    /// # Errors
+    /// [`StretchedError`] as for [`StretchedBlade::up_to`].
+    pub fn new(
+        plate: &Plate,
+        to_rad_per_s: f64,
+        places: &[(Polar, f64)],
+    ) -> Result<Self, StretchedError> {
+        finite("the speed in rad/s", to_rad_per_s)?;
+        let plate = plate.conservative();
+        let full = restrained(&plate, 1)?;
+        let saw = Assembled::from(plate);
+        let critical = saw.critical_speeds(Some(&|_| to_rad_per_s))?.into_iter();
+        let diverging = critical.take_while(|c| c.speed_rad_per_s <= to_rad_per_s);
+        let mut shapes: Vec<Col<f64>> = diverging
+            .map(|c| saw.on_plate(c.component, &c.shape))
+            .collect();
+        let force = saw.plate.load_at(places);
+        shapes.extend(bent(&saw, &force, to_rad_per_s));
+        Ok(ForcedPlate {
+            stretching: Stretching::new(&saw.plate)?,
+            saw,
+            full,
+            shapes,
+        })
+    }
+
+    /// The blade in the basis of [`StretchedBlade::up_to`], with further shapes of unit length, without a force.
+    ///
+    /// # Errors
+    /// [`StretchedError`] as for [`StretchedBlade::new`].
+    pub fn blade(
+        &self,
+        modes: usize,
+        further: &[Col<f64>],
+    ) -> Result<StretchedBlade, StretchedError> {
+        enough(&self.full, modes)?;
+        let rest = self.saw.modes_at_rest(modes)?;
+        let rest = rest
+            .iter()
+            .map(|mode| self.saw.on_plate(mode.component, &mode.shape));
+        let shapes: Vec<Col<f64>> = self
+            .shapes
+            .iter()
+            .cloned()
+            .chain(rest)
+            .chain(further.iter().cloned())
+            .collect();
+        let basis = orthonormal(self.full.order(), &shapes, INDEPENDENT);
+        let plate = self.saw.plate.clone();
+        StretchedBlade::stretched(plate, &self.full, &self.stretching, basis)
+    }
+}
+
 /// Matrices of a plate; refused if nothing restrains a rigid motion, or the plate has fewer functions than shapes.
 fn restrained(plate: &Plate, shapes: usize) -> Result<GyroscopicSystem, StretchedError> {
     let full = GyroscopicSystem::of_plate(plate);
     if !full.free_rigid.is_empty() {
         return Err(StretchedError::NotHeld);
     }
+    enough(&full, shapes)?;
+    Ok(full)
+}
+
+/// Refuses a number of shapes that is zero or larger than that of the functions.
+fn enough(full: &GyroscopicSystem, shapes: usize) -> Result<(), StretchedError> {
     if (1..=full.order()).contains(&shapes) {
-        Ok(full)
+        Ok(())
     } else {
         Err(StretchedError::Shapes {
             given: shapes,
@@ -173,14 +240,10 @@ pub(super) fn at_rest(system: &GyroscopicSystem) -> Result<SymmetricEigen, Stret
 
 /// Deflections K(Ω)⁻¹f, scaled to unit length, at rest, at a speed, and at speeds between whose squares are evenly spaced.
 /// On these shapes the linear model deflects as the full model at these speeds, and nearly so between: K is linear in Ω².
-fn bent(
-    system: &GyroscopicSystem,
-    force: &Col<f64>,
-    to_rad_per_s: f64,
-) -> impl Iterator<Item = Col<f64>> {
+fn bent(saw: &Assembled, force: &Col<f64>, to_rad_per_s: f64) -> impl Iterator<Item = Col<f64>> {
     let speed = move |k: usize| to_rad_per_s * (k as f64 / (BENT - 1) as f64).sqrt();
     let shape = move |k: usize| {
-        let bent = system.stiffness_at(speed(k)).partial_piv_lu().solve(force);
+        let bent = saw.deflected(speed(k), force);
         let norm = bent.norm_l2();
         // At a critical speed there is no such deflection; its shape is in the basis already.
         (norm > 0.0 && norm.is_finite()).then(|| Scale(1.0 / norm) * bent)

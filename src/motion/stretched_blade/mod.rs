@@ -31,6 +31,7 @@ mod sites;
 mod slopes;
 mod sweep;
 
+pub(crate) use basis::ForcedPlate;
 pub use branch::{Branch, BranchEnd, Extent, Turn, TurnKind};
 pub use equilibrium::Equilibrium;
 pub use flutter_rise::FlutterRise;

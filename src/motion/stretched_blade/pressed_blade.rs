@@ -1,7 +1,7 @@
 //! A blade under a side force: its stationary deflection between pads that lift off.
 
 use crate::model::plate::{Plate, Resolution};
-use crate::model::scene::{Polar, Scene, SideForce, rad_per_s};
+use crate::model::scene::{Polar, Scene, rad_per_s};
 use crate::modes::Cancellation;
 
 use super::equilibrium::Equilibrium;
@@ -34,23 +34,6 @@ impl Deviation {
 
 /// Radius in m and magnitude of the force in N at each point of contact.
 type Contacts = Vec<(f64, f64)>;
-
-impl StretchedBlade {
-    /// The blade of a plate under a side force, on a reduced basis of `modes` modes at rest and the shapes needed for equilibria up to
-    /// a speed.
-    ///
-    /// # Errors
-    /// [`StretchedError`] as for [`StretchedBlade::up_to`].
-    pub(crate) fn under(
-        force: &SideForce,
-        plate: &Plate,
-        to_rad_per_s: f64,
-        modes: usize,
-    ) -> Result<Self, StretchedError> {
-        Self::up_to(plate, to_rad_per_s, force.at.polar(), modes)?
-            .pressed(force.force_n, force.at.polar())
-    }
-}
 
 /// A blade whose deflections under side forces can be computed.
 pub(crate) struct PressedBlade {
