@@ -12,7 +12,6 @@ use crate::model::system::dynamic_stiffness;
 
 use super::balance::{Balance, LEAST_TIMES};
 use super::periodic::{Periodic, function, times};
-use super::term::{forces, stiffnesses};
 
 /// Number of steps of the monodromy matrix in a period of the highest frequency that it resolves; they change this frequency by
 /// 0.02 %, and its decay by 0.06 %.
@@ -102,7 +101,7 @@ impl<'a> Along<'a> {
                 function(k, TAU * time as f64 / at.ncols() as f64)
             });
             let mut columns = coefficients.subcols_mut(0, own);
-            columns += forces(term, &(&self.motion.0 * along)) * back;
+            columns += term.force.forces_at(&(&self.motion.0 * along)) * back;
         }
         (balance.harmonics + 1..=last)
             .map(|k| {
@@ -162,7 +161,7 @@ fn cubic_stiffness(balance: &Balance<'_>, motion: &Periodic) -> Mat<f64> {
     for term in balance.terms.iter().filter(|term| term.is_cubic) {
         let (at, back) = times(balance.count(term), width);
         let at = at.subrows(0, balance.width());
-        coefficients += stiffnesses(term, &(&motion.0 * at)) * back;
+        coefficients += term.force.stiffness_sums(&(&motion.0 * at), &back);
     }
     coefficients
 }

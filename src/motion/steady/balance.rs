@@ -13,8 +13,8 @@ use faer::{Col, Mat, Scale};
 
 use crate::model::system::GyroscopicSystem;
 
-use super::periodic::{Periodic, times};
-use super::term::{Term, flat, forces, stiffnesses};
+use super::periodic::{Periodic, product, times};
+use super::term::{Term, flat};
 
 /// The equations of the balance of a system at one speed.
 pub struct Balance<'a> {
@@ -173,7 +173,7 @@ impl<'a> Balance<'a> {
         }
         for term in self.terms {
             let (at, back) = times(self.count(term), self.width());
-            rest -= Scale(term.share(share)) * (forces(term, &(motion * &at)) * back);
+            rest -= Scale(term.share(share)) * (term.force.forces_at(&(motion * &at)) * back);
         }
         rest
     }
@@ -225,18 +225,22 @@ impl<'a> Balance<'a> {
     ) {
         let (order, width) = (self.order(), self.width());
         let count = self.count(term);
-        let (at, back) = times(count, width);
-        let stiffnesses = stiffnesses(term, &(motion * &at));
-        let share = term.share(share);
-        let products = Mat::from_fn(count, width * width, |time, pair| {
-            share * back[(time, pair % width)] * at[(pair / width, time)]
-        });
-        let blocks = stiffnesses * products;
-        for pair in 0..width * width {
-            let (row, column) = (order * (pair % width), order * (pair / width));
-            for j in 0..order {
-                for i in 0..order {
-                    jacobian[(row + i, column + j)] += blocks[(j * order + i, pair)];
+        let (at, _) = times(count, 2 * width - 1);
+        // Means over the period of the stiffness times each function of twice as many harmonics.
+        let weights = Scale(term.share(share) / count as f64) * at.transpose();
+        let means = term
+            .force
+            .stiffness_sums(&(motion * at.subrows(0, width)), &weights);
+        for column in 0..width {
+            for row in 0..width {
+                let norm = if row == 0 { 1.0 } else { 2.0 };
+                for (function, factor) in product(row, column) {
+                    for j in 0..order {
+                        for i in 0..order {
+                            jacobian[(row * order + i, column * order + j)] +=
+                                norm * factor * means[(j * order + i, function)];
+                        }
+                    }
                 }
             }
         }

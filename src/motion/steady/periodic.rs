@@ -33,6 +33,20 @@ pub(super) fn function(k: usize, phase: f64) -> f64 {
     }
 }
 
+/// The product of two of these functions as a sum of two others, each with its factor.
+pub(super) fn product(one: usize, other: usize) -> [(usize, f64); 2] {
+    let [i, j] = [one, other].map(|k| k.div_ceil(2) as isize);
+    let is_sine = |k: usize| k > 0 && k.is_multiple_of(2);
+    let cos = |m: isize, factor: f64| ((2 * m.unsigned_abs()).saturating_sub(1), factor);
+    let sin = |m: isize, factor: f64| (2 * m.unsigned_abs(), factor * m.signum() as f64);
+    match (is_sine(one), is_sine(other)) {
+        (false, false) => [cos(i - j, 0.5), cos(i + j, 0.5)],
+        (true, true) => [cos(i - j, 0.5), cos(i + j, -0.5)],
+        (false, true) => [sin(j - i, 0.5), sin(i + j, 0.5)],
+        (true, false) => [sin(i - j, 0.5), sin(i + j, 0.5)],
+    }
+}
+
 impl Periodic {
     /// q at a phase ωt.
     pub fn at(&self, phase: f64) -> Col<f64> {
@@ -70,4 +84,25 @@ pub fn extremes(states: &[Col<f64>], probe: &Col<f64>) -> [f64; 2] {
         values().fold(f64::INFINITY, f64::min),
         values().fold(f64::NEG_INFINITY, f64::max),
     ]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn products_of_functions_are_sums_of_functions() {
+        for one in 0..9 {
+            for other in 0..9 {
+                for phase in [0.3, 1.7, 4.1] {
+                    let sum: f64 = product(one, other)
+                        .iter()
+                        .map(|(k, factor)| factor * function(*k, phase))
+                        .sum();
+                    let exact = function(one, phase) * function(other, phase);
+                    assert!((sum - exact).abs() < 1e-14, "{one} {other}: {sum} {exact}");
+                }
+            }
+        }
+    }
 }

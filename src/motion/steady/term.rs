@@ -1,4 +1,4 @@
-//! Forces of the balance, evaluated at many deflections.
+//! Forces of the balance.
 
 use faer::{Col, Mat};
 
@@ -19,29 +19,6 @@ impl Term<'_> {
     pub(super) fn share(&self, of_contact: f64) -> f64 {
         if self.is_cubic { 1.0 } else { of_contact }
     }
-}
-
-/// A force at some deflections, a column each.
-pub(super) fn forces(term: &Term<'_>, deflections: &Mat<f64>) -> Mat<f64> {
-    let mut forces = Mat::zeros(deflections.nrows(), deflections.ncols());
-    for (deflection, mut column) in deflections.col_iter().zip(forces.col_iter_mut()) {
-        let mut force = Col::zeros(deflection.nrows());
-        term.force.add_to(&deflection.to_owned(), &mut force);
-        column.copy_from(&force);
-    }
-    forces
-}
-
-/// The stiffness of a force at some deflections, a column each, with the columns of the matrix below each other.
-pub(super) fn stiffnesses(term: &Term<'_>, deflections: &Mat<f64>) -> Mat<f64> {
-    let order = deflections.nrows();
-    let mut all = Mat::zeros(order * order, deflections.ncols());
-    for (deflection, mut column) in deflections.col_iter().zip(all.col_iter_mut()) {
-        let mut own = Mat::zeros(order, order);
-        term.force.add_stiffness(&deflection.to_owned(), &mut own);
-        column.copy_from(flat(&own));
-    }
-    all
 }
 
 /// The columns of a matrix, one below the other.

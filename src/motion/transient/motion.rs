@@ -40,6 +40,35 @@ pub trait Force {
     /// Adds −∂f/∂q to `stiffness`, in 1/s².
     fn add_stiffness(&self, displacement: &Col<f64>, stiffness: &mut Mat<f64>);
 
+    /// f(q) at some displacements, a column each.
+    fn forces_at(&self, displacements: &Mat<f64>) -> Mat<f64> {
+        let mut forces = Mat::zeros(displacements.nrows(), displacements.ncols());
+        for (displacement, mut column) in displacements.col_iter().zip(forces.col_iter_mut()) {
+            let mut force = Col::zeros(displacement.nrows());
+            self.add_to(&displacement.to_owned(), &mut force);
+            column.copy_from(&force);
+        }
+        forces
+    }
+
+    /// Weighted sums of −∂f/∂q over some displacements: one for each column of `weights`, which has a row for each displacement,
+    /// with the columns of the matrix below each other.
+    fn stiffness_sums(&self, displacements: &Mat<f64>, weights: &Mat<f64>) -> Mat<f64> {
+        let order = displacements.nrows();
+        let mut all = Mat::zeros(order * order, displacements.ncols());
+        for (displacement, mut column) in displacements.col_iter().zip(all.col_iter_mut()) {
+            let mut own = Mat::zeros(order, order);
+            self.add_stiffness(&displacement.to_owned(), &mut own);
+            for j in 0..order {
+                column
+                    .as_mut()
+                    .subrows_mut(j * order, order)
+                    .copy_from(own.col(j));
+            }
+        }
+        all * weights
+    }
+
     /// Adds ∫₀¹ f(q + s d) ds to `force`: by two Gauss points, exactly for forces up to the third power of q.
     fn add_mean_to(&self, displacement: &Col<f64>, change: &Col<f64>, force: &mut Col<f64>) {
         let mut sum = Col::zeros(force.nrows());

@@ -1,6 +1,6 @@
 //! Forces of stretching and of pads that lift off in a time history: −∂U₄/∂q and −∂V/∂q.
 
-use faer::{Col, Mat};
+use faer::{Col, Mat, Scale};
 
 use crate::model::plate::{GapPotential, Plate, ReducedStretching};
 use crate::model::system::GyroscopicSystem;
@@ -47,6 +47,14 @@ impl Force for GapPotential {
 
     fn add_stiffness(&self, displacement: &Col<f64>, stiffness: &mut Mat<f64>) {
         *stiffness += self.hessian(displacement);
+    }
+
+    fn forces_at(&self, displacements: &Mat<f64>) -> Mat<f64> {
+        Scale(-1.0) * self.gradients(displacements)
+    }
+
+    fn stiffness_sums(&self, displacements: &Mat<f64>, weights: &Mat<f64>) -> Mat<f64> {
+        self.hessian_sums(displacements, weights)
     }
 
     /// Gauss points of the line would not give the exact mean where a pad begins to touch.

@@ -197,6 +197,46 @@ impl GapPotential {
         self.stiffness(|k| self.points[k].tangent_n_per_m(w[k]))
     }
 
+    /// [`GapPotential::gradient`] at many coordinates, a column each.
+    pub fn gradients(&self, coordinates: &Mat<f64>) -> Mat<f64> {
+        let pressures = self.at_points(coordinates, Point::pressure_n);
+        let mut gradients = &self.shapes * pressures;
+        for mut column in gradients.col_iter_mut() {
+            column -= &self.film;
+        }
+        gradients
+    }
+
+    /// Weighted sums of [`GapPotential::hessian`] over many coordinates: one for each column of `weights`, with the columns of the
+    /// matrix below each other. The weights are summed at the points first, so that products of shapes are as few as the sums.
+    pub fn hessian_sums(&self, coordinates: &Mat<f64>, weights: &Mat<f64>) -> Mat<f64> {
+        let order = self.shapes.nrows();
+        let sums = self.at_points(coordinates, Point::tangent_n_per_m) * weights;
+        let mut found = Mat::zeros(order * order, weights.ncols());
+        for (sum, mut column) in sums.col_iter().zip(found.col_iter_mut()) {
+            let weighted = Mat::from_fn(order, sum.nrows(), |i, k| sum[k] * self.shapes[(i, k)]);
+            let hessian = weighted * self.shapes.transpose();
+            for j in 0..order {
+                column
+                    .as_mut()
+                    .subrows_mut(j * order, order)
+                    .copy_from(hessian.col(j));
+            }
+        }
+        found
+    }
+
+    /// A quantity of each point, a row, at each of many coordinates, a column, from its deflection.
+    fn at_points(&self, coordinates: &Mat<f64>, of: impl Fn(&Point, f64) -> f64) -> Mat<f64> {
+        let mut w = self.shapes.transpose() * coordinates;
+        for mut column in w.col_iter_mut() {
+            for (k, point) in self.points.iter().enumerate() {
+                column[k] = of(point, column[k] - point.offset_m);
+            }
+        }
+        w
+    }
+
     /// The mean of ∂V/∂p, in N/√kg, on the straight line from one deflection to another. The product of this mean
     /// and the change of p is exactly the change of V.
     pub fn mean_gradient(&self, from: &Col<f64>, change: &Col<f64>) -> Col<f64> {
