@@ -27,8 +27,10 @@ pub(super) const END: [f64; 2] = [1.2, 1.8];
 const SETTLED: f64 = 1e-12;
 /// Number of terms of the quadratic problem.
 const QUADRATIC: usize = 3;
-/// Largest number of steps. The rounding of A, where it is not normal, may be larger than the last change.
+/// Largest number of steps.
 const STEPS: usize = 16;
+/// Largest residual of a pair whose B has not settled within these steps, relative to its terms.
+const LARGEST_RESIDUAL: f64 = 1e-8;
 
 /// The pair with its left vectors.
 pub(super) struct Pair {
@@ -52,6 +54,9 @@ struct States {
 
 impl Pair {
     /// The pair of the matrices L₀, L₁, … side by side; `None` without eigenvalues within the reach.
+    ///
+    /// # Errors
+    /// [`LinalgError`] if a decomposition fails, or if the iteration ends before its equation is solved.
     pub fn new(terms: MatRef<'_, f64>, is_conservative: bool) -> Result<Option<Self>, LinalgError> {
         let size = terms.nrows();
         let quadratic = [0, 1, 2].map(|power| terms.subcols(power * size, size));
@@ -72,6 +77,7 @@ impl Pair {
         let mut z = Mat::zeros(others.values.len(), b.ncols());
         let higher = terms.subcols(QUADRATIC * size, terms.ncols() - QUADRATIC * size);
         let mut powers = Mat::zeros(higher.ncols(), b.ncols());
+        let mut last = f64::INFINITY;
         for _ in 0..STEPS {
             let mut power = &x * &b * &b * &b;
             for row in (0..higher.ncols()).step_by(size) {
@@ -86,12 +92,38 @@ impl Pair {
             z = divided(&right, &others.values, &kept.values);
             x = &kept.x + &others.x * &z;
             b = next;
+            last = change;
             if change <= SETTLED {
                 break;
             }
         }
+        // The rounding of A, where it is not normal, may be larger than the last change.
+        if last > SETTLED {
+            let error = residual(terms, &x, &b);
+            if error.is_nan() || error > LARGEST_RESIDUAL {
+                return Err(LinalgError::Inaccurate {
+                    values: "eigenvalues of the reduced model",
+                    order: size,
+                    error,
+                });
+            }
+        }
         Ok(Some(Pair { x, y: kept.y, b }))
     }
+}
+
+/// ‖Σ L_k X Bᵏ‖ relative to the largest of its terms.
+fn residual(terms: MatRef<'_, f64>, x: &Mat<f64>, b: &Mat<f64>) -> f64 {
+    let size = x.nrows();
+    let mut power = x.clone();
+    let (mut sum, mut largest) = (Mat::<f64>::zeros(size, x.ncols()), 0.0_f64);
+    for first in (0..terms.ncols()).step_by(size) {
+        let term = terms.subcols(first, size) * &power;
+        largest = largest.max(term.norm_l2());
+        sum += term;
+        power = &power * b;
+    }
+    sum.norm_l2() / largest
 }
 
 impl States {
