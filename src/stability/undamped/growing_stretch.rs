@@ -103,12 +103,15 @@ impl GrowingStretch {
         range: SpeedRange,
     ) -> Result<Vec<CurvePoint>, SpectrumError> {
         let [begin, end] = self.ends;
-        let is_inside = |point: &&CurvePoint| {
-            (begin.speed() < point.speed_rad_per_s) && (point.speed_rad_per_s < end.speed())
-        };
-        let inner = self.points.iter().filter(is_inside).copied();
+        // At the end of a search the point there is the last of the interval, and may grow the most.
+        let inside = SpeedRange::new(begin.speed(), end.speed());
+        let inner = self
+            .points
+            .iter()
+            .filter(|point| inside.contains(point.speed_rad_per_s));
         let mut known: Vec<CurvePoint> = begin.point().into_iter().collect();
-        known.extend(inner.chain(end.point()));
+        known.extend(inner.copied().chain(end.point()));
+        known.dedup_by(|next, last| next.speed_rad_per_s <= last.speed_rad_per_s);
         if known.is_empty() {
             known.push(self.points[0]);
         }
