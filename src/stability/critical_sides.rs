@@ -18,13 +18,17 @@ const DOUBLE: f64 = 1e-9;
 /// − Ω_c, not to its square root, and exceed rounding only at a larger distance.
 const DOUBLE_GAP: f64 = 1e-4;
 
+/// Whether two critical speeds are a double one.
+pub fn is_double(one: f64, other: f64) -> bool {
+    (other / one - 1.0).abs() < DOUBLE
+}
+
 /// Relative distance of the search from a critical speed.
 fn critical_gap(critical: &[f64], index: usize) -> f64 {
-    let is_double = |other: Option<&f64>| {
-        other.is_some_and(|other| (other / critical[index] - 1.0).abs() < DOUBLE)
-    };
+    let is_same =
+        |other: Option<&f64>| other.is_some_and(|other| is_double(critical[index], *other));
     let below = index.checked_sub(1).and_then(|below| critical.get(below));
-    if is_double(below) || is_double(critical.get(index + 1)) {
+    if is_same(below) || is_same(critical.get(index + 1)) {
         DOUBLE_GAP
     } else {
         CRITICAL_GAP.get()

@@ -197,8 +197,7 @@ impl<'a> ModeCounts<'a> {
     /// Whether rigid motions are free, so that K is singular at every speed and n₋(L(iω)) does not start at
     /// n₋(K).
     pub fn has_free_motions(&self) -> bool {
-        let mut components = self.model.components.iter();
-        components.any(|component| !component.full.free_rigid.is_empty())
+        self.model.has_free_motions()
     }
 
     /// Data common to the counts at a speed.

@@ -127,12 +127,21 @@ impl Sample {
         Sample::of_squares(speed_rad_per_s, squares)
     }
 
-    /// Makes all squares those of waves of sign +. A double one may have an imaginary part by rounding.
-    pub fn set_definite(&mut self) {
-        let numbers = self.eigenvalues.iter_mut();
-        let parts = numbers.flat_map(|(square, slope)| [square, slope]);
-        parts.for_each(|number| number.im = 0.0);
-        self.signs.fill(1);
+    /// A sample from modes of an undamped saw with a positive definite K(Ω), which are waves of sign +. A real part is rounding: of
+    /// two modes with one frequency, and of a rigid motion that turns with the blade, whose frequency is nearly zero near rest.
+    pub fn of_definite_modes<'a>(
+        speed_rad_per_s: f64,
+        modes: impl Iterator<Item = &'a Mode>,
+    ) -> Self {
+        let waves = modes.filter(|mode| mode.lambda.im > 0.0).map(|mode| {
+            let (frequency, slope) = (mode.lambda.im, mode.slope.im);
+            let square = (
+                c64::from(-frequency * frequency),
+                c64::from(-2.0 * frequency * slope),
+            );
+            (square, 1)
+        });
+        Sample::of_squares(speed_rad_per_s, waves.collect())
     }
 
     /// Index between the eigenvalues and their conjugates.

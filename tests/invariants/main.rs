@@ -30,3 +30,4 @@ mod guide_arms;
 mod guide_states;
 mod properties;
 mod rooms;
+mod searches;

@@ -301,8 +301,7 @@ fn contradicted(certificate: &BandCertificate) -> Option<String> {
 
 fn left_free(analysis: &Analysis) -> Option<String> {
     let free_bore = matches!(analysis.model.plate.blade.bore, Bore::Free);
-    let mut components = analysis.model.components.iter();
-    let free = free_bore && components.any(|p| !p.full.free_rigid.is_empty());
+    let free = free_bore && analysis.model.has_free_motions();
     free.then(|| {
         "nothing holds the blade against some rigid motion, which the list of modes excludes"
             .to_owned()

@@ -94,8 +94,7 @@ pub fn check(scene: &Scene, limits: &Limits) -> Result<CheckReport, CheckError> 
         Some(_) => saturations(analysis)?,
     };
     criteria.extend(limits.of_amplitude(analysis, &saturations));
-    let mut components = analysis.model.components.iter();
-    let is_free = components.any(|component| !component.full.free_rigid.is_empty());
+    let is_free = analysis.model.has_free_motions();
     criteria.extend(is_free.then(|| without_stiffness(operating)));
     // Nothing resists a side force where rigid motions are free, or where K(Ω) is singular.
     let side_force = PointLoad::new(plate, rim_at_cut(scene));

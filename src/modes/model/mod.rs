@@ -211,6 +211,12 @@ impl SpectralModel {
             .all(|component| component.full.is_conservative())
     }
 
+    /// Whether nothing holds some rigid motion of the blade.
+    pub(crate) fn has_free_motions(&self) -> bool {
+        let mut components = self.components.iter();
+        components.any(|component| !component.full.free_rigid.is_empty())
+    }
+
     /// Whether some damping turns with the blade: it strains under a wave that stands still in space, so that
     /// no eigenvalue is zero at the critical speeds, which are those of the blade without damping.
     pub(crate) fn has_turning_damping(&self) -> bool {

@@ -45,11 +45,7 @@ impl Counts {
         bands: &[Instability],
         range: SpeedRange,
     ) -> Result<Self, SpectrumError> {
-        let is_free = model
-            .components
-            .iter()
-            .any(|c| !c.full.free_rigid.is_empty());
-        if model.plate.is_axisymmetric() || is_free {
+        if model.plate.is_axisymmetric() || model.has_free_motions() {
             return Ok(Counts::default());
         }
         let full = model.full_model();

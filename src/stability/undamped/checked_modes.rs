@@ -169,10 +169,7 @@ impl<'a> CheckedModes<'a> {
             return Ok(None);
         }
         let solved = self.checked(speed_rad_per_s)?;
-        let mut sample = self.followed(&solved);
-        if self.model.negative_stiffness_directions(speed_rad_per_s) == 0 {
-            sample.set_definite();
-        }
+        let sample = self.followed(&solved);
         if let Ok(mut seen) = self.seen.lock() {
             seen.push(solved);
         }
@@ -188,7 +185,11 @@ impl<'a> CheckedModes<'a> {
         followed.truncate(below + BESIDES);
         let fence = FENCE * self.model.complete_to_rad_per_s;
         followed.retain(|mode| mode.lambda.im < fence);
-        let mut sample = Sample::of_modes(solved.speed_rad_per_s, followed.into_iter());
+        let speed = solved.speed_rad_per_s;
+        let mut sample = match self.model.negative_stiffness_directions(speed) {
+            0 => Sample::of_definite_modes(speed, followed.into_iter()),
+            _ => Sample::of_modes(speed, followed.into_iter()),
+        };
         sample
             .eigenvalues
             .push((c64::from(-fence * fence), c64::ZERO));
@@ -249,9 +250,15 @@ impl<'a> CheckedModes<'a> {
         if negative > 0 {
             return krein_index(&solved.modes) == negative;
         }
-        // Of a positive definite K(Ω) a double eigenvalue may seem to grow by rounding.
+        // Of a positive definite K(Ω) a double eigenvalue may seem to grow by rounding, and so may the zero of a free rigid motion.
+        let free = if self.model.has_free_motions() {
+            GROWTH_FLOOR * self.model.complete_to_rad_per_s
+        } else {
+            0.0
+        };
         let mut modes = solved.modes.iter();
         modes.all(|mode| match mode.kind {
+            _ if mode.lambda.norm() < free => true,
             ModeKind::Flutter => mode.lambda.re < GROWTH_FLOOR * mode.lambda.norm(),
             kind => kind.krein_index() == 0,
         })

@@ -4,6 +4,7 @@ use faer::c64;
 
 use crate::modes::nearest_pairs;
 use crate::stability::band::CurvePoint;
+use crate::stability::critical_sides::is_double;
 use crate::stability::instability_kind::InstabilityKind;
 use crate::stability::pieces::{Grouped, Piece};
 use crate::stability::sample::{Plane, Sample};
@@ -252,7 +253,10 @@ impl<'a, 'c> Reader<'a, 'c> {
         let passed = self.passed(piece);
         if open.is_empty() && found.is_empty() {
             // Without a real λ at either end, an odd number of negative eigenvalues of K(Ω) between two critical speeds implies one there.
-            let pairs = passed.chunks_exact(2).filter(|pair| differ(pair));
+            // At a double one both waves pass zero without divergence.
+            let pairs = passed
+                .chunks_exact(2)
+                .filter(|pair| !is_double(pair[0], pair[1]));
             self.ended.extend(pairs.map(|pair| Stretch {
                 kind: self.kind,
                 begin: Bound::Unfollowed(pair[0]),
@@ -296,14 +300,6 @@ impl<'a, 'c> Reader<'a, 'c> {
         let inside = self.critical.iter().copied();
         inside.filter(|speed| piece.contains(*speed)).collect()
     }
-}
-
-/// Relative distance of two critical speeds that are a double one, where both waves pass zero without divergence.
-const DOUBLE: f64 = 1e-12;
-
-/// Whether two critical speeds are not a double one.
-fn differ(pair: &[f64]) -> bool {
-    pair[1] - pair[0] >= DOUBLE * pair[0]
 }
 
 fn point(sample: &Sample, place: usize) -> CurvePoint {
