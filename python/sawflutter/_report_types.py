@@ -14,7 +14,7 @@ from ._scene_types import SceneDict, StudyDict
 
 InstabilityKind: TypeAlias = Literal["divergence", "flutter"]
 
-StabilityState: TypeAlias = Literal["stable", "divergence", "flutter", "too_close", "outside_sweep"]
+StabilityState: TypeAlias = Literal["stable", "divergence", "flutter", "too_close", "not_determined", "outside_sweep"]
 
 ForceCause: TypeAlias = Literal["side_force", "cut", "assumed"]
 
@@ -161,7 +161,8 @@ class Instability(Entry):
         blade flutter, and if it was not computed.
     amplitude_not_computed : Reason for which the amplitude was not computed, although it was
         requested; null if there is none.
-    estimated_relative_error : Estimated relative error of the onset.
+    estimated_relative_error : Estimated relative error of the onset and the end, the larger of
+        both; null if it is unknown.
     estimated_relative_growth_error : Estimated relative error of the largest growth rate. As a
         small difference of large numbers it may exceed the tolerance.
     """
@@ -588,6 +589,8 @@ class Certificate(Entry):
         growth of an undetected band could reach the threshold: from and to.
     max_backward_error : Largest backward error, on the full model, of the modes at rest, at
         three speeds of the diagram and at the peaks of the bands.
+    interpolated : Number of ends of bands, and of speeds within them, that are interpolated,
+        because no eigenvalue was found there; 0 is expected.
     proven_share : Share of the sweep that is proven to have no unlisted instability, rounded
         down to four digits; absent if no proof was tried.
     unproven_growth_per_s : Estimate, not proof, of the largest growth of an undetected band in
@@ -611,6 +614,7 @@ class Certificate(Entry):
     unproven_rpm: FloatArray
     unproven_counting_rpm: FloatArray
     max_backward_error: float
+    interpolated: int = field(default=0)
     proven_share: float | None = field(default=None)
     unproven_growth_per_s: float | None = field(default=None)
     max_listed_backward_error: float | None = field(default=None)

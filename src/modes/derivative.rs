@@ -54,8 +54,25 @@ pub fn of_coalescence(
     change: &GyroscopicSystem,
 ) -> f64 {
     let changed = change_of_residual(change, speed_rad_per_s, lambda, x);
+    of_coalescence_by(
+        system,
+        speed_rad_per_s,
+        lambda,
+        [x, y],
+        y.adjoint() * changed,
+    )
+}
+
+/// The change of [`of_coalescence`] for a known yᴴ(dL)x.
+pub fn of_coalescence_by(
+    system: &GyroscopicSystem,
+    speed_rad_per_s: f64,
+    lambda: c64,
+    [x, y]: [&Col<c64>; 2],
+    changed: c64,
+) -> f64 {
     let slope = speed_slope(system, speed_rad_per_s, lambda, x);
-    -(y.adjoint() * changed).re / (y.adjoint() * slope).re
+    -(changed / (y.adjoint() * slope)).re
 }
 
 /// (dL)x = (λ(2Ω dG + dC) + dK(Ω))x.

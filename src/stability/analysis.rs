@@ -170,9 +170,19 @@ impl Analysis {
             complete_to_rad_per_s,
         } = chosen;
         options.report(&critical, range, None);
-        let model = SpectralModel::with_critical(saw, critical, range, Strategy::Reduced)?;
+        let mut model = SpectralModel::with_critical(saw, critical, range, Strategy::Reduced)?;
         let depth = Depth::of(scene.accuracy());
-        let (mut chart, between) = charted(&model, range, depth, options)?;
+        let mut searched_again = false;
+        let (mut chart, between) = loop {
+            let (mut chart, between) = charted(&model, range, depth, options)?;
+            if searched_again || !chart.certificate.lacks_waves() {
+                chart.certificate.searched_again = searched_again;
+                break (chart, between);
+            }
+            drop(between);
+            model = model.with_more_waves()?;
+            searched_again = true;
+        };
         let at_rest = ModesAtRest::new(&model, range)?;
         let is_refined = scene.accuracy() == Accuracy::Reference && detail == Detail::Full;
         let mut listed = is_refined
@@ -184,7 +194,11 @@ impl Analysis {
         let estimates =
             Estimates::new(&model, range, &chart, basis_error, estimated_resting_error)?;
         let threshold = scene.flutter_threshold_per_s();
-        let [flutter_speed, first_merge] = flutter_onsets(&chart.instabilities, threshold);
+        let [flutter_speed, first_merge] = if chart.certificate.has_failed() {
+            [None; 2]
+        } else {
+            flutter_onsets(&chart.instabilities, threshold)
+        };
         // With damping no pair coalesces.
         let has_loci = detail == Detail::Full && model.is_conservative();
         let root_loci = match flutter_speed.or(first_merge).filter(|_| has_loci) {
@@ -348,6 +362,7 @@ impl Analysis {
         let estimates = self.estimates.iter().flat_map(|found| &found.bands);
         Evidence {
             bands: &self.chart.instabilities,
+            has_failed: self.chart.certificate.has_failed(),
             edge_errors: estimates.map(|error| error.speed).collect(),
             critical_rad_per_s,
             threshold_per_s: self.scene.flutter_threshold_per_s(),

@@ -9,6 +9,25 @@ use super::group::Sloped;
 use super::instability_kind::InstabilityKind;
 use crate::model::scene::{SpeedRange, rpm};
 
+/// What begins or ends a band.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum BandEnd {
+    /// Critical speed: λ passes through zero.
+    Critical,
+    /// Coalescence of two modes with this λ.
+    Coalescence(c64),
+    /// Zero of Re λ of a damped blade, or the speed of its smallest value between two bands.
+    Growth,
+    /// End of the range inside the band.
+    Range,
+    /// Speed interpolated between others, because no eigenproblem gave it.
+    Interpolated,
+}
+
+/// Distance of a peak at the end of an undamped band from that end, as a share of the width: at the end itself two real λ have one
+/// eigenvector.
+pub(super) const BESIDE_END: f64 = 1e-3;
+
 /// A band of unstable speeds.
 #[derive(Debug, Clone, PartialEq)]
 #[non_exhaustive]
@@ -19,6 +38,8 @@ pub struct Instability {
     pub from_rad_per_s: f64,
     /// Speed at which the band ends, or the end of the range inside it.
     pub to_rad_per_s: f64,
+    /// What begins and ends the band.
+    pub ends: [BandEnd; 2],
     /// Whether the band begins and ends within the range.
     pub closed: bool,
     /// Speed of largest growth.
@@ -75,23 +96,25 @@ impl CurvePoint {
     }
 }
 
-/// Distance of a peak at the end of an undamped band from that end, as a share of the width: at the end itself two real λ have one
-/// eigenvector.
-pub(super) const BESIDE_END: f64 = 1e-3;
-
 impl Instability {
-    /// Whether flutter of an undamped blade grows most beside an end at which its two λ become real.
-    pub(super) fn peaks_beside_real(&self) -> bool {
-        let range = self.range();
-        let off = range.ends().map(|end| (self.peak_rad_per_s - end).abs());
-        let nearest = off[0].min(off[1]);
-        let is_beside = nearest > 0.0 && nearest < 2.0 * BESIDE_END * range.width();
-        self.kind == InstabilityKind::Flutter && is_beside
-    }
-
     /// Speeds of the band.
     pub fn range(&self) -> SpeedRange {
         SpeedRange::new(self.from_rad_per_s, self.to_rad_per_s)
+    }
+
+    /// The end, with its λ, beside which growth is largest because two real λ coalesce there: flutter beside divergence.
+    pub(super) fn real_peak(&self) -> Option<(f64, c64)> {
+        if self.kind == InstabilityKind::Divergence {
+            return None;
+        }
+        let ends = self.range().ends().into_iter().zip(self.ends);
+        let real = ends.filter_map(|(speed, end)| match end {
+            BandEnd::Coalescence(lambda) if lambda.im == 0.0 => Some((speed, lambda)),
+            _ => None,
+        });
+        let away = |speed: f64| (speed - self.peak_rad_per_s).abs() / self.range().width();
+        real.into_iter()
+            .find(|(speed, _)| away(*speed) <= 2.0 * BESIDE_END)
     }
 
     /// Whether the band counts as an instability of the saw. Damping that the scene does not model suppresses

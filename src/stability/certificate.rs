@@ -31,12 +31,26 @@ pub struct Certificate {
     /// Whether counts contradicted the spectra at first, so that the bands were searched again with more
     /// waves.
     pub searched_again: bool,
+    /// Number of speeds at which bands end or growth was examined that are interpolated, because no eigenproblem gave an eigenvalue
+    /// there.
+    pub interpolated: usize,
     /// Intervals of speed, in rad/s, that are not proven to contain no unlisted band; `None` if no proof was
     /// tried.
     pub unproven_rad_per_s: Option<Vec<SpeedRange>>,
 }
 
 impl Certificate {
+    /// Whether counts contradict the spectra, so that a model with more waves is to be searched.
+    pub(super) fn lacks_waves(&self) -> bool {
+        !self.miscounts.is_empty()
+    }
+
+    /// Whether the search failed, so that its bands decide nothing, see [`has_failed`].
+    pub fn has_failed(&self) -> bool {
+        let contradicted = self.violations_rad_per_s.len() + self.mismatches.len();
+        has_failed(contradicted, self.speeds_checked)
+    }
+
     /// Whether no check found a contradiction and the search was completed.
     pub fn is_clean(&self) -> bool {
         self.violations_rad_per_s.is_empty()
@@ -44,6 +58,17 @@ impl Certificate {
             && self.miscounts.is_empty()
             && !self.gave_up
     }
+}
+
+/// Share of the compared speeds with a contradiction from which on a search has failed: a band that is missing, or wrong at an edge,
+/// contradicts the speeds within it alone.
+const FAILED: f64 = 0.1;
+/// Smallest number of contradictions of a failed search.
+const FEWEST_FAILED: usize = 3;
+
+/// Whether the bands of a search decide nothing, because they contradict the eigenvalues at a large share of the speeds compared.
+pub(crate) fn has_failed(contradicted: usize, speeds: usize) -> bool {
+    contradicted >= FEWEST_FAILED && contradicted as f64 >= FAILED * speeds as f64
 }
 
 /// A speed at which the list of bands contradicts the eigenvalues found there.
@@ -156,12 +181,14 @@ mod tests {
     use faer::c64;
 
     use super::*;
+    use crate::stability::band::BandEnd;
 
     fn band(kind: InstabilityKind, from: f64, to: f64, peak_growth_per_s: f64) -> Instability {
         Instability {
             kind,
             from_rad_per_s: from,
             to_rad_per_s: to,
+            ends: [BandEnd::Range; 2],
             closed: true,
             peak_rad_per_s: 0.5 * (from + to),
             peak_growth_per_s,

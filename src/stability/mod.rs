@@ -53,10 +53,11 @@ mod verdict;
 pub use analysis::Analysis;
 pub(crate) use analysis::OPERATING_LIMIT;
 pub(crate) use band::CurvePoint;
-pub use band::Instability;
+pub use band::{BandEnd, Instability};
 pub use basis::ChosenBasis;
 pub(crate) use basis::{end_of_sweep, resolved};
 pub use basis_limit::OutOfReach;
+pub(crate) use certificate::has_failed;
 pub use certificate::{Certificate, ContradictedBands};
 #[doc(hidden)]
 pub use chart::chart;

@@ -84,8 +84,13 @@ impl Onsets {
             search_bands(saw, critical, range)?
         };
         let threshold = scene.flutter_threshold_per_s();
-        let [flutter_speed, first_merge] = flutter_onsets(&found.instabilities, threshold)
-            .map(|onset| onset.map(|onset| onset.speed_rad_per_s));
+        let [flutter_speed, first_merge] = if found.certificate.has_failed() {
+            [None; 2]
+        } else {
+            flutter_onsets(&found.instabilities, threshold)
+        };
+        let [flutter_speed, first_merge] =
+            [flutter_speed, first_merge].map(|onset| onset.map(|onset| onset.speed_rad_per_s));
         Ok(Onsets {
             lowest_critical_rad_per_s: lowest_critical,
             critical_rad_per_s,
@@ -110,10 +115,62 @@ pub fn search_bands(
     range: SpeedRange,
 ) -> Result<FoundBands, AnalysisError> {
     let saw = saw.into();
-    if saw.plate.is_conservative() {
-        let model = SpectralModel::with_critical(saw, critical, range, Strategy::Bands)?;
-        return Ok(undamped_bands(&model, range, SEARCH_SPEEDS)?);
+    let strategy = if saw.plate.is_conservative() {
+        Strategy::Bands
+    } else {
+        Strategy::Reduced
+    };
+    let model = SpectralModel::with_critical(saw, critical, range, strategy)?;
+    sufficient_bands(&model, range)
+}
+
+/// The bands of a model, or of one with more waves, if counts contradict the first.
+fn sufficient_bands(model: &SpectralModel, range: SpeedRange) -> Result<FoundBands, AnalysisError> {
+    let found = bands_of(model, range)?;
+    if !found.certificate.lacks_waves() {
+        return Ok(found);
     }
-    let model = SpectralModel::with_critical(saw, critical, range, Strategy::Reduced)?;
-    Ok(damped::bands(&model, range, Detail::Full)?)
+    let mut found = bands_of(&model.with_more_waves()?, range)?;
+    found.certificate.searched_again = true;
+    Ok(found)
+}
+
+fn bands_of(model: &SpectralModel, range: SpeedRange) -> Result<FoundBands, AnalysisError> {
+    Ok(if model.is_conservative() {
+        undamped_bands(model, range, SEARCH_SPEEDS)?
+    } else {
+        damped::bands(model, range, Detail::Full)?
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::model::plate::Plate;
+    use crate::model::scene::{Accuracy, rad_per_s};
+
+    /// A reduced model of the damped saw lacks a wave that flutters. Reference: the bands of the whole one.
+    #[test]
+    #[cfg_attr(debug_assertions, ignore = "many eigenproblems: run it in release")]
+    fn a_damped_saw_is_searched_again_with_more_waves() {
+        let scene = Scene::paper().edited(|saw| saw.guides[0].damping_n_s_per_m = 2.0);
+        let range = SpeedRange::between_rpm(0.0, 2600.0);
+        let plate = Plate::new(&scene.unwrap(), Resolution::of(Accuracy::Draft));
+        let sound = SpectralModel::new(plate.clone(), range, Strategy::Reduced).unwrap();
+        let expected = sufficient_bands(&sound, range).unwrap();
+        assert!(!expected.certificate.searched_again);
+        let mut faulty = SpectralModel::new(plate, range, Strategy::Reduced).unwrap();
+        let speed = rad_per_s(1800.0);
+        let modes = faulty.modes(speed).unwrap();
+        let growing = modes.iter().position(|mode| mode.lambda.re > 0.01);
+        faulty.lose_wave(speed, growing.expect("a growing mode"));
+        let found = sufficient_bands(&faulty, range).unwrap();
+        assert!(found.certificate.searched_again, "{:?}", found.certificate);
+        assert!(found.certificate.is_clean(), "{:?}", found.certificate);
+        assert_eq!(found.instabilities.len(), expected.instabilities.len());
+        for (found, expected) in found.instabilities.iter().zip(&expected.instabilities) {
+            let off = found.from_rad_per_s / expected.from_rad_per_s - 1.0;
+            assert!(off.abs() < 1e-5, "{found} {expected}");
+        }
+    }
 }

@@ -5,8 +5,19 @@
 pub struct Edge {
     /// Speed at which the band begins or ends.
     pub speed: f64,
-    /// Its estimated error.
-    pub error: f64,
+    /// Its estimated error; `None` if it is unknown.
+    pub error: Option<f64>,
+}
+
+/// Relative distance from an edge of unknown error within which it is open on which side a speed is: the tolerance of the coarsest
+/// accuracy.
+const UNKNOWN: f64 = 0.01;
+
+impl Edge {
+    /// Distance within which the edge leaves open on which side a speed is.
+    fn reach(&self) -> f64 {
+        self.error.unwrap_or(UNKNOWN * self.speed)
+    }
 }
 
 /// The edges of a band that counts within some stretches of it. The ends of the sweep are no edges, and neither are the speeds at which
@@ -19,18 +30,16 @@ pub(crate) fn edges<'a>(
 ) -> impl Iterator<Item = Edge> + 'a {
     let ends = stretches.into_iter().flatten();
     let own = ends.filter(move |end| band.contains(end) && !sweep.contains(end));
-    own.filter_map(move |speed| {
-        Some(Edge {
-            speed,
-            error: relative_error? * speed,
-        })
+    own.map(move |speed| Edge {
+        speed,
+        error: relative_error.map(|error| error * speed),
     })
 }
 
 /// The nearest of the edges whose error exceeds its distance from a speed.
 pub(crate) fn undecided(edges: impl Iterator<Item = Edge>, speed: f64) -> Option<Edge> {
     let away = |edge: &Edge| (edge.speed - speed).abs();
-    let open = edges.filter(|edge| away(edge) <= edge.error);
+    let open = edges.filter(|edge| away(edge) <= edge.reach());
     open.min_by(|x, y| away(x).total_cmp(&away(y)))
 }
 
@@ -58,23 +67,30 @@ mod tests {
         let found = verdict.undecided.unwrap();
         assert_eq!(found.speed, edge);
         for away in [-2.0, 2.0] {
-            let beyond = analysis.verdict(edge + away * found.error);
+            let beyond = analysis.verdict(edge + away * found.error.unwrap());
             assert_eq!(beyond.undecided, None);
             assert_ne!(beyond.state, StabilityState::TooClose);
         }
     }
 
     #[test]
-    fn ends_of_the_sweep_and_edges_without_an_error_leave_nothing_open() {
+    fn ends_of_the_sweep_leave_nothing_open_and_edges_of_unknown_error_leave_a_percent() {
         let at =
             |error, sweep| undecided(edges([100.0, 200.0], [[100.0, 150.0]], error, sweep), 99.5);
         let edge = Edge {
             speed: 100.0,
-            error: 1.0,
+            error: Some(1.0),
         };
         assert_eq!(at(Some(0.01), [0.0, 300.0]), Some(edge));
         assert_eq!(at(Some(0.01), [100.0, 300.0]), None);
-        assert_eq!(at(None, [0.0, 300.0]), None);
+        let unknown = Edge {
+            error: None,
+            ..edge
+        };
+        assert_eq!(at(None, [0.0, 300.0]), Some(unknown));
+        let stretch = [[100.0, 150.0]];
+        let beyond = edges([100.0, 200.0], stretch, None, [0.0, 300.0]);
+        assert_eq!(undecided(beyond, 98.9), None);
         // Where the growth falls below the threshold, at 150, is no edge.
         assert_eq!(
             undecided(

@@ -40,6 +40,8 @@ pub enum StabilityState {
     Flutter,
     /// The estimated error of the edge of a band exceeds its distance from the speed, so it is open on which side the speed is.
     TooClose,
+    /// The search for bands failed: its bands contradict the eigenvalues.
+    NotDetermined,
     /// The speed was not analysed.
     OutsideSweep,
 }
@@ -79,7 +81,9 @@ pub struct Verdict {
 pub struct Evidence<'a> {
     /// Every band within the range.
     pub bands: &'a [Instability],
-    /// Estimated relative errors of the edges of each band; empty if they are not known.
+    /// Whether the search for the bands failed, see [`Certificate::has_failed`](super::Certificate::has_failed).
+    pub has_failed: bool,
+    /// Estimated relative errors of the edges of each band, `None` for unknown ones; empty if none was estimated.
     pub edge_errors: Vec<Option<f64>>,
     /// Critical speeds, ascending, in rad/s, including those next to the range.
     pub critical_rad_per_s: &'a [f64],
@@ -112,8 +116,11 @@ impl Evidence<'_> {
             let (x, y) = (rank(x), rank(y));
             x.0.cmp(&y.0).then(x.1.total_cmp(&y.1))
         });
-        let undecided = undecided(self.edges(), speed_rad_per_s);
+        let is_determined = !self.has_failed;
+        let worst = worst.filter(|_| is_determined);
+        let undecided = undecided(self.edges(), speed_rad_per_s).filter(|_| is_determined);
         let state = match worst {
+            _ if !is_determined && around(&self.range_rad_per_s) => StabilityState::NotDetermined,
             _ if undecided.is_some() => StabilityState::TooClose,
             Some((_, band, _)) => StabilityState::within([band.kind]),
             None if around(&self.range_rad_per_s) => StabilityState::Stable,
@@ -284,12 +291,14 @@ fn crossing(pair: &[CurvePoint], value: f64) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::stability::band::BandEnd;
 
     fn band(kind: InstabilityKind, from: f64, to: f64, growth: f64) -> Instability {
         Instability {
             kind,
             from_rad_per_s: from,
             to_rad_per_s: to,
+            ends: [BandEnd::Range; 2],
             closed: true,
             peak_rad_per_s: 0.5 * (from + to),
             peak_growth_per_s: growth,
@@ -315,6 +324,7 @@ mod tests {
     fn evidence<'a>(bands: &'a [Instability], critical: &'a [f64]) -> Evidence<'a> {
         Evidence {
             bands,
+            has_failed: false,
             edge_errors: Vec::new(),
             critical_rad_per_s: critical,
             threshold_per_s: 0.25,

@@ -56,3 +56,26 @@ fn a_point_pad_on_a_loose_blade_takes_few_speeds_and_has_no_divergence() {
     assert_eq!(flutter.len(), analysis.bands().len());
     assert_eq!(flutter, [1862.0, 2284.0, 2317.0, 2663.0, 2715.0, 2759.0]);
 }
+
+/// On a basis of the accuracy `reference` divergence ends at 40765.09 rpm, where two real λ coalesce and flutter begins. The shapes of
+/// both need far more functions than the waves that stand still at the critical speeds.
+#[test]
+fn an_end_of_divergence_at_flutter_has_an_error_of_its_own() {
+    let analysis = Analysis::new(&read("thick_ring", Accuracy::Draft)).unwrap();
+    let near = |speed: f64| (rpm(speed) / 40765.09 - 1.0).abs();
+    let estimates = analysis.estimates.as_ref().unwrap();
+    let mut ends = 0;
+    for (band, error) in analysis.bands().iter().zip(&estimates.bands) {
+        for off in band.range().ends().map(near) {
+            if off < 1e-3 {
+                let stated = error.speed.unwrap();
+                assert!(
+                    (off..10.0 * off).contains(&stated),
+                    "{band}: {stated:e} {off:e}"
+                );
+                ends += 1;
+            }
+        }
+    }
+    assert_eq!(ends, 2);
+}

@@ -251,6 +251,7 @@ fn a_damped_pad_flutters_where_modes_meet_and_not_where_damping_feeds_a_wave() {
     };
     let found = sawflutter::stability::Evidence {
         bands,
+        has_failed: false,
         edge_errors: Vec::new(),
         critical_rad_per_s: &[],
         threshold_per_s: scene.flutter_threshold_per_s(),

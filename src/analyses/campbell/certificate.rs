@@ -4,7 +4,9 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use crate::model::scene::{SpeedRange, rpm};
-use crate::stability::{Certificate, ContradictedBands, MiscountedModes, StabilityChart};
+use crate::stability::{
+    Certificate, ContradictedBands, MiscountedModes, StabilityChart, has_failed,
+};
 
 /// Checks of the list of bands against the spectrum, by the Krein index, by counts of eigenvalues on the full
 /// model and by the growth found at single speeds, and the share of the sweep that is proven to have no other
@@ -36,6 +38,9 @@ pub struct BandCertificate {
     pub mismatches: Vec<ContradictedBands>,
     /// Whether the search for bands ended at its limit of work, so that bands may be missing.
     pub gave_up: bool,
+    /// Number of ends of bands, and of speeds within them, that are interpolated, because no eigenvalue was found there; 0 is expected.
+    #[serde(default)]
+    pub interpolated: usize,
     /// Share of the sweep that is proven to have no unlisted instability, rounded down to four digits; absent
     /// if no proof was tried.
     #[serde(default, skip_serializing_if = "Option::is_none")]
@@ -84,6 +89,7 @@ impl BandCertificate {
             searched_again: certificate.searched_again,
             mismatches: certificate.mismatches.clone(),
             gave_up: certificate.gave_up,
+            interpolated: certificate.interpolated,
             proven_share,
             unproven_rpm: unproven.map(|range| range.ends().map(rpm)).collect(),
             unproven_growth_per_s: chart.unproven_growth_per_s(),
@@ -91,6 +97,12 @@ impl BandCertificate {
             max_backward_error,
             max_listed_backward_error,
         }
+    }
+
+    /// Whether the bands contradict the eigenvalues at so many speeds that they decide nothing.
+    pub fn has_failed(&self) -> bool {
+        let contradicted = self.krein_violations + self.mismatches.len();
+        has_failed(contradicted, self.speeds_checked)
     }
 
     /// Whether no check disagrees.
@@ -153,11 +165,22 @@ pub(crate) fn statement(
     if certificate.searched_again {
         agree.push("after a second search with more waves".to_owned());
     }
+    agree.extend(interpolated(certificate.interpolated));
     if agree.is_empty() {
         "no speed was checked".to_owned()
     } else {
         agree.join(", ")
     }
+}
+
+/// States how many ends and values of bands are interpolated; `None` if none is.
+pub(super) fn interpolated(count: usize) -> Option<String> {
+    let are = match count {
+        0 => return None,
+        1 => "1 end or value of a band is",
+        _ => return Some(format!("{count} ends or values of bands are interpolated")),
+    };
+    Some(format!("{are} interpolated"))
 }
 
 /// Descriptions of all disagreements.

@@ -81,6 +81,7 @@ pub fn empty_report(name: &str) -> Report {
             statement: "no speed was checked".to_owned(),
             speeds_checked: 0,
             gave_up: false,
+            interpolated: 0,
             krein_violations: 0,
             violating_rpm: Vec::new(),
             full_basis_counts: 0,

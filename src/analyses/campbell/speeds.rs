@@ -66,7 +66,7 @@ pub struct InstabilityBand {
     /// Reason for which the amplitude was not computed, although it was requested; null if there is none.
     #[serde(default)]
     pub amplitude_not_computed: Option<String>,
-    /// Estimated relative error of the onset.
+    /// Estimated relative error of the onset and the end, the larger of both; null if it is unknown.
     #[serde(default)]
     pub estimated_relative_error: Option<f64>,
     /// Estimated relative error of the largest growth rate. As a small difference of large numbers it may

@@ -36,13 +36,22 @@ impl Limits {
         criteria.extend(self.min_flutter_rad_per_s.map(|asked| {
             let end = rpm(found.range_rad_per_s.to_rad_per_s);
             let nowhere = format!("none up to {end:.0} rpm, where the search ends");
-            at_least(
+            let criterion = at_least(
                 "min_flutter",
                 "flutter speed",
                 asked,
                 flutter_speed,
                 nowhere,
-            )
+            );
+            if found.has_failed {
+                return Criterion {
+                    finding: "not determined: the search for bands failed".to_owned(),
+                    found_rpm: None,
+                    passed: false,
+                    ..criterion
+                };
+            }
+            criterion
         }));
         criteria
     }
@@ -82,9 +91,10 @@ impl Limits {
         let at = format!("{} rpm", typed_rpm(operating));
         let finding = match (verdict.state, verdict.stretch, verdict.undecided) {
             (StabilityState::TooClose, _, Some(edge)) => {
-                let why = too_close(rpm(edge.speed), rpm(edge.error), accuracy);
+                let why = too_close(rpm(edge.speed), edge.error.map(rpm), accuracy);
                 format!("too close to call at {at}: {why}")
             }
+            (StabilityState::NotDetermined, ..) => format!("the search for bands failed at {at}"),
             (StabilityState::OutsideSweep, ..) => format!("{at} is outside the sweep"),
             (StabilityState::Divergence, Some(range), _) => within(&at, "divergence", range),
             (StabilityState::Flutter, Some(range), _) => within(&at, "flutter", range),

@@ -85,6 +85,7 @@ impl Judged {
             StabilityState::Divergence | StabilityState::Flutter => Some("the saw is unstable"),
             StabilityState::TooClose => Some("it is too close to call whether the saw is stable"),
             StabilityState::OutsideSweep => Some("the sweep does not include the speed"),
+            StabilityState::NotDetermined => Some("the search for bands failed"),
         }
     }
 

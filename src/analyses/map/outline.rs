@@ -182,6 +182,7 @@ fn saws_of(report: &MapReport) -> Table {
             Some(StabilityState::Divergence) => "divergence".into(),
             Some(StabilityState::Flutter) => "flutter".into(),
             Some(StabilityState::TooClose) => "too close".into(),
+            Some(StabilityState::NotDetermined) => "not determined".into(),
             Some(StabilityState::OutsideSweep) => "outside sweep".into(),
         };
         [

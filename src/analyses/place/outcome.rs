@@ -88,6 +88,7 @@ impl Question {
         let flutter = flutter.map(|onset| onset.speed_rad_per_s);
         let evidence = Evidence {
             bands: &bands,
+            has_failed: certificate.has_failed(),
             edge_errors: Vec::new(),
             critical_rad_per_s: &critical_rad_per_s,
             threshold_per_s: threshold,
@@ -102,7 +103,13 @@ impl Question {
         let is_stable = scene
             .operating_rad_per_s()
             .is_some_and(|speed| evidence.verdict(speed).state == StabilityState::Stable);
-        let short = too_low + beyond;
+        // A saw whose search failed keeps no limit that follows from its bands.
+        let unknown = if certificate.has_failed() {
+            FAR_BEYOND
+        } else {
+            0.0
+        };
+        let short = too_low + beyond + unknown;
         Ok(Computed {
             outcome: Outcome {
                 goal_rpm: rpm(value_rad_per_s),

@@ -215,6 +215,7 @@ impl Study {
     pub(super) fn criteria_of_nothing(&self) -> Vec<Criterion> {
         let nothing = Evidence {
             bands: &[],
+            has_failed: false,
             edge_errors: Vec::new(),
             critical_rad_per_s: &[],
             threshold_per_s: 0.0,

@@ -159,6 +159,7 @@ impl Study {
         let edge_error = Some(onsets.estimated_relative_error);
         let evidence = Evidence {
             bands: &onsets.instabilities,
+            has_failed: onsets.certificate.has_failed(),
             edge_errors: vec![edge_error; onsets.instabilities.len()],
             critical_rad_per_s: &onsets.critical_rad_per_s,
             threshold_per_s: scene.flutter_threshold_per_s(),

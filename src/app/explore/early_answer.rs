@@ -46,6 +46,7 @@ impl Ahead {
         if let Some(bands) = interim.bands {
             let evidence = Evidence {
                 bands,
+                has_failed: false,
                 // They are estimated when the diagram is complete.
                 edge_errors: Vec::new(),
                 critical_rad_per_s: &critical,

@@ -4,10 +4,12 @@ use super::super::vectors::split;
 use super::*;
 
 impl SpectralModel {
-    /// Removes the oscillation at a `place` in the order of frequency, at a speed, from the reduced model.
+    /// Removes the oscillation at a `place` in the order of frequency, among all of a damped saw or those of sign + of another, at a
+    /// speed, from the reduced model.
     pub(crate) fn lose_wave(&mut self, speed_rad_per_s: f64, place: usize) {
         let modes = self.modes(speed_rad_per_s).unwrap();
-        let mut waves = modes.iter().filter(|m| m.kind == ModeKind::Positive);
+        let is_wave = |m: &&Mode| matches!(m.kind, ModeKind::Positive | ModeKind::Damped);
+        let mut waves = modes.iter().filter(is_wave);
         let (re, im) = split(&waves.nth(place).unwrap().coordinates);
         let Solution::Waves(modes) = &mut self.components[0].solution else {
             panic!("no reduced model");

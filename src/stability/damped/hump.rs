@@ -6,7 +6,7 @@ use super::spectrum::Component;
 use crate::model::scene::SpeedRange;
 use crate::model::tuning::Tuned;
 use crate::modes::SpectrumError;
-use crate::stability::band::{CurvePoint, Instability};
+use crate::stability::band::{BandEnd, CurvePoint, Instability};
 use crate::stability::growth_curve::{GrowthCurve, zero};
 use crate::stability::instability_kind::InstabilityKind;
 
@@ -123,8 +123,8 @@ fn parted(stretch: &GrowthCurve, cut: [bool; 2], noise: f64) -> Vec<Instability>
     valleys(&stretch.points, [0, last], &mut bounds);
     bounds.sort_unstable();
     let humps = bounds.windows(2).map(|ends| {
-        let is_cut = (cut[0] && ends[0] == 0) || (cut[1] && ends[1] == last);
-        band(stretch, [ends[0], ends[1]], !is_cut)
+        let is_cut = [cut[0] && ends[0] == 0, cut[1] && ends[1] == last];
+        band(stretch, [ends[0], ends[1]], is_cut)
     });
     humps
         .filter(|band| {
@@ -166,7 +166,7 @@ fn valleys(curve: &[CurvePoint], [first, last]: [usize; 2], found: &mut Vec<usiz
 }
 
 /// Band of one hump.
-fn band(stretch: &GrowthCurve, [first, last]: [usize; 2], closed: bool) -> Instability {
+fn band(stretch: &GrowthCurve, [first, last]: [usize; 2], is_cut: [bool; 2]) -> Instability {
     let peak = stretch.peak([first, last]);
     let kind = if peak.number.im == 0.0 {
         InstabilityKind::Divergence
@@ -177,7 +177,14 @@ fn band(stretch: &GrowthCurve, [first, last]: [usize; 2], closed: bool) -> Insta
         kind,
         from_rad_per_s: stretch.points[first].speed_rad_per_s,
         to_rad_per_s: stretch.points[last].speed_rad_per_s,
-        closed,
+        ends: is_cut.map(|is_cut| {
+            if is_cut {
+                BandEnd::Range
+            } else {
+                BandEnd::Growth
+            }
+        }),
+        closed: !is_cut.contains(&true),
         peak_rad_per_s: peak.speed_rad_per_s,
         peak_growth_per_s: peak.number.re,
         frequency_rad_per_s: peak.number.im.abs(),

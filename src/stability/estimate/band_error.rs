@@ -16,7 +16,7 @@ const WIDTH_REMAINDER: f64 = 0.1;
 /// Estimated errors of a band; `None` if the larger basis gives no estimate.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub struct BandError {
-    /// Relative error of the onset and the end.
+    /// Relative error of the onset and the end, the larger of both.
     pub speed: Option<f64>,
     /// Relative error of the largest growth rate.
     pub growth: Option<f64>,
@@ -29,7 +29,7 @@ impl BandError {
     pub fn of(self, band: &Instability, critical: f64) -> Self {
         // The width is taken relative to the end, because a band may begin at rest.
         let width = band.range().width() / band.to_rad_per_s;
-        let is_real = band.kind == InstabilityKind::Divergence || band.peaks_beside_real();
+        let is_real = band.kind == InstabilityKind::Divergence || band.real_peak().is_some();
         let of_width = if is_real {
             WIDTH_REMAINDER * critical / width
         } else {
@@ -40,7 +40,9 @@ impl BandError {
             .map(|difference| GROWTH_REMAINDER * difference + 2.0 * critical + of_width);
         let by_growth = 2.0 * growth.unwrap_or(0.0) * width;
         BandError {
-            speed: Some(REMAINDER.get() * self.speed.unwrap_or(0.0) + critical + by_growth),
+            speed: self
+                .speed
+                .map(|change| REMAINDER.get() * change + critical + by_growth),
             growth,
         }
     }

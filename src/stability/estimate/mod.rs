@@ -1,6 +1,7 @@
 //! Estimated errors of each result of an analysis, by the change that a larger basis makes on a few modes.
 
 mod band_error;
+mod ends;
 mod fastest;
 
 use faer::{Col, c64};
@@ -8,6 +9,7 @@ use rayon::prelude::*;
 
 pub use self::band_error::BandError;
 use self::band_error::magnitude;
+use self::ends::change_of_ends;
 use self::fastest::fastest;
 
 use super::band::Instability;
@@ -131,17 +133,24 @@ impl Estimates {
         band: &Instability,
         modes: &[DescribedMode],
     ) -> Result<BandError, SpectrumError> {
-        let Some(growing) = modes.first() else {
-            return Ok(BandError::default());
-        };
-        match (band.kind, model.is_conservative()) {
-            (InstabilityKind::Divergence, true) => self.standing(model, band, growing),
-            (InstabilityKind::Flutter, true) if band.peaks_beside_real() => {
-                Ok(self.splitting(model, band, modes))
+        let is_conservative = model.is_conservative();
+        let growth = match (modes.first(), band.kind) {
+            (None, _) => None,
+            (Some(growing), InstabilityKind::Divergence) if is_conservative => {
+                self.standing(model, band, growing)?
             }
-            (InstabilityKind::Flutter, true) => self.merging(model, band, modes),
-            _ => self.damped(model, band, modes),
-        }
+            _ => match band.real_peak() {
+                Some(end) => self.splitting(model, band, end, modes),
+                None => self.grown(model, band, modes)?,
+            },
+        };
+        // A damped band ends where its growth does, so that its ends change with it.
+        let speed = if is_conservative {
+            change_of_ends(model, &self.basis_error, band)
+        } else {
+            growth.map(|_| 0.0)
+        };
+        Ok(BandError { speed, growth })
     }
 
     /// Projections of a component on some vectors, of which those closer than a tolerance to the span of the others are omitted:
@@ -164,65 +173,36 @@ impl Estimates {
         [found, larger]
     }
 
-    /// Estimates flutter of an undamped blade on the two waves that coalesce: onset and largest growth.
-    fn merging(
-        &self,
-        model: &SpectralModel,
-        band: &Instability,
-        modes: &[DescribedMode],
-    ) -> Result<BandError, SpectrumError> {
-        let systems = self.projected_on(model, band, modes, INDEPENDENT);
-        let wave = c64::new(0.0, band.frequency_rad_per_s);
-        let [found, larger] = &systems;
-        let before = DoubleEigenvalue::next_to(found, band.from_rad_per_s, wave);
-        // Started at the band again, the iteration could lead to another coalescence.
-        let onset = before.and_then(|before| {
-            let after = DoubleEigenvalue::next_to(larger, before.speed_rad_per_s, before.lambda)?;
-            Some((after.speed_rad_per_s - before.speed_rad_per_s) / band.from_rad_per_s)
-        });
-        Ok(BandError {
-            speed: onset.and_then(magnitude),
-            ..grown(&systems, band, modes)?
-        })
-    }
-
-    /// Estimates flutter of an undamped blade that grows most at an end where two real λ coalesce, beside a band of divergence:
-    /// that end, which stands for the onset, because both ends of so narrow a band shift alike, and λ there.
+    /// Change of the largest growth of flutter of an undamped blade that grows most at an end where two real λ coalesce, beside a band
+    /// of divergence.
     fn splitting(
         &self,
         model: &SpectralModel,
         band: &Instability,
+        (end, lambda): (f64, c64),
         modes: &[DescribedMode],
-    ) -> BandError {
+    ) -> Option<f64> {
         let [found, larger] = self.projected_on(model, band, modes, BESIDE_COALESCENCE);
-        let ends = band.range().ends();
-        let end = smallest(ends, |end| (end - band.peak_rad_per_s).abs());
-        let real = c64::new(band.peak_growth_per_s, 0.0);
-        let before = end.and_then(|end| DoubleEigenvalue::next_to(&found, end, real));
-        let is_same = |before: &DoubleEigenvalue| {
-            let at_peak = band.peak_rad_per_s - before.speed_rad_per_s;
-            let growth = before.lambda.re + before.mean_slope.re * at_peak;
-            (growth / band.peak_growth_per_s - 1.0).abs() < SAME_GROWTH
-        };
-        let changed = before.filter(is_same).and_then(|before| {
-            let after = DoubleEigenvalue::next_to(&larger, before.speed_rad_per_s, before.lambda)?;
-            Some(BandError {
-                speed: magnitude(after.speed_rad_per_s / before.speed_rad_per_s - 1.0),
-                growth: magnitude(after.lambda.re / before.lambda.re - 1.0),
-            })
-        });
-        changed.unwrap_or_default()
+        let before = DoubleEigenvalue::next_to(&found, end, lambda);
+        let is_same =
+            |before: &DoubleEigenvalue| (before.lambda.re / lambda.re - 1.0).abs() < SAME_GROWTH;
+        let before = before.filter(is_same)?;
+        let after = DoubleEigenvalue::next_to(&larger, before.speed_rad_per_s, before.lambda)?;
+        magnitude(after.lambda.re / before.lambda.re - 1.0)
     }
 
-    /// Estimates growth of a damped blade.
-    fn damped(
+    /// Change of the largest growth of the modes at the peak of a band. The larger basis shifts a band, so that the largest growth
+    /// rates are compared, each at its own speed.
+    fn grown(
         &self,
         model: &SpectralModel,
         band: &Instability,
         modes: &[DescribedMode],
-    ) -> Result<BandError, SpectrumError> {
+    ) -> Result<Option<f64>, SpectrumError> {
         let systems = self.projected_on(model, band, modes, INDEPENDENT);
-        grown(&systems, band, modes)
+        let growth = systems.map(|system| fastest(&system, &modes[0], band));
+        let [before, after] = growth;
+        Ok(magnitude(after? / before? - 1.0))
     }
 
     /// The component of some modes projected on them, see [`Estimates::projected`].
@@ -242,14 +222,14 @@ impl Estimates {
         self.projected(model, band, component, &halves, tolerance)
     }
 
-    /// Estimates divergence between two critical speeds on the waves that stand still there and the growing
-    /// mode. The larger basis shifts both speeds and changes the growth between them.
+    /// Change of the largest growth of divergence between two critical speeds, on the waves that stand still there and the growing
+    /// mode. `None` if the band ends otherwise, where other waves take part in the growth.
     fn standing(
         &self,
         model: &SpectralModel,
         band: &Instability,
         growing: &DescribedMode,
-    ) -> Result<BandError, SpectrumError> {
+    ) -> Result<Option<f64>, SpectrumError> {
         let component = growing.mode.component;
         let ends = model.critical.iter().filter(|c| {
             let is_end = |end: f64| (c.speed_rad_per_s / end - 1.0).abs() < SAME_SPEED;
@@ -258,45 +238,37 @@ impl Estimates {
         let (re, im) = split(&model.components[component].coordinates(&growing.shape));
         let shapes: Vec<Col<f64>> = ends.map(|c| c.shape.clone()).chain([re, im]).collect();
         let [found, larger] = self.projected(model, band, component, &shapes, INDEPENDENT);
-        let [before, after] = [Lean::new(&found, band)?, Lean::new(&larger, band)?];
-        let [Some(before), Some(after)] = [before, after] else {
-            return Ok(BandError::default());
-        };
-        Ok(BandError {
-            speed: magnitude(after.from / before.from - 1.0),
-            growth: magnitude(after.growth / before.growth - 1.0),
-        })
+        let [before, after] = [
+            largest_growth(&found, band)?,
+            largest_growth(&larger, band)?,
+        ];
+        Ok(before
+            .zip(after)
+            .and_then(|(before, after)| magnitude(after / before - 1.0)))
     }
 }
 
-/// Divergence of a small system between two critical speeds.
-struct Lean {
-    /// Speed at which it begins, in rad/s.
-    from: f64,
-    /// Largest growth rate, in 1/s.
-    growth: f64,
-}
-
-impl Lean {
-    /// The band of a small system that is nearest to a known band.
-    fn new(system: &GyroscopicSystem, band: &Instability) -> Result<Option<Self>, SpectrumError> {
-        let critical = critical_speeds(system)?;
-        let speeds: Vec<f64> = critical.iter().map(|c| c.speed_rad_per_s).collect();
-        let middle = |pair: &&[f64]| {
-            (0.5 * (pair[0] + pair[1]) - 0.5 * (band.from_rad_per_s + band.to_rad_per_s)).abs()
-        };
-        let Some(&[from, to]) = smallest(speeds.windows(2), middle) else {
-            return Ok(None);
-        };
-        let mut growth = 0.0_f64;
-        for look in 1..LEANING_LOOKS {
-            let speed = from + (to - from) * look as f64 / LEANING_LOOKS as f64;
-            let pairs = companion_eigenpairs(system, speed)?;
-            let real = pairs.iter().filter(|(lambda, _)| lambda.im <= lambda.re);
-            growth = real.fold(growth, |top, (lambda, _)| top.max(lambda.re));
-        }
-        Ok(Some(Lean { from, growth }))
+/// Largest growth rate, in 1/s, of divergence of a small system between the two critical speeds that are nearest to those of a band.
+fn largest_growth(
+    system: &GyroscopicSystem,
+    band: &Instability,
+) -> Result<Option<f64>, SpectrumError> {
+    let critical = critical_speeds(system)?;
+    let speeds: Vec<f64> = critical.iter().map(|c| c.speed_rad_per_s).collect();
+    let middle = |pair: &&[f64]| {
+        (0.5 * (pair[0] + pair[1]) - 0.5 * (band.from_rad_per_s + band.to_rad_per_s)).abs()
+    };
+    let Some(&[from, to]) = smallest(speeds.windows(2), middle) else {
+        return Ok(None);
+    };
+    let mut growth = 0.0_f64;
+    for look in 1..LEANING_LOOKS {
+        let speed = from + (to - from) * look as f64 / LEANING_LOOKS as f64;
+        let pairs = companion_eigenpairs(system, speed)?;
+        let real = pairs.iter().filter(|(lambda, _)| lambda.im <= lambda.re);
+        growth = real.fold(growth, |top, (lambda, _)| top.max(lambda.re));
     }
+    Ok(Some(growth))
 }
 
 /// Relative distance within which the end of a band is a critical speed.
@@ -314,22 +286,6 @@ const INDEPENDENT: f64 = 1e-2;
 /// λ changes there. On a saw with a pad of 1.5e5 N/m, modes in the middle of the band, which differ more, gave the same change of
 /// growth within 0.2 % in twelve bands; without the difference the coalescence of the small system was another one.
 const BESIDE_COALESCENCE: f64 = 1e-4;
-
-/// Changes of the largest growth from one small system to another. The larger basis shifts a band, so that the largest growth rates are
-/// compared, each at its own speed.
-fn grown(
-    systems: &[GyroscopicSystem; 2],
-    band: &Instability,
-    modes: &[DescribedMode],
-) -> Result<BandError, SpectrumError> {
-    let [before, after] = systems
-        .each_ref()
-        .map(|system| fastest(system, &modes[0], band));
-    Ok(BandError {
-        speed: None,
-        growth: magnitude(after? / before? - 1.0),
-    })
-}
 
 /// The growing mode of a band at the speed of its peak, and its neighbours: without damping the mode with which it has coalesced, else
 /// those of the nearest frequencies. Empty if none grows as the band does.

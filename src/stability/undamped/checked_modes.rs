@@ -34,6 +34,8 @@ const BESIDE_COALESCENCE: f64 = 1e-7;
 struct Tally {
     checked: AtomicUsize,
     violations: Mutex<Vec<f64>>,
+    /// Number of speeds within bands at which no mode grows, so that growth is interpolated.
+    interpolated: AtomicUsize,
 }
 
 /// A growing eigenvalue at more than this share of its expected growth from the expected one may be another.
@@ -63,9 +65,11 @@ impl Numbers for CheckedModes<'_> {
         }
         let sample = self.at(speed_rad_per_s)?;
         let growing = sample.quadruples().chain(sample.divergences());
-        Ok(smallest(growing, |(square, _)| {
-            (square.sqrt() - wanted).norm()
-        }))
+        let found = smallest(growing, |(square, _)| (square.sqrt() - wanted).norm());
+        if found.is_none() {
+            self.tally.interpolated.fetch_add(1, Ordering::Relaxed);
+        }
+        Ok(found)
     }
 }
 
@@ -105,6 +109,7 @@ impl<'a> CheckedModes<'a> {
             speeds_checked: self.tally.checked.load(Ordering::Relaxed),
             violations_rad_per_s: violations,
             gave_up: self.is_exhausted(),
+            interpolated: self.tally.interpolated.load(Ordering::Relaxed),
             ..Certificate::default()
         }
     }

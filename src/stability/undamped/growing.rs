@@ -69,7 +69,7 @@ fn touch(checked: &CheckedModes<'_>, [end, begin]: [End; 2]) -> Result<bool, Spe
     if to < from {
         return Ok(true);
     }
-    if !matches!([end, begin], [End::Coalescence(_), End::Coalescence(_)]) {
+    if !(end.is_coalescence() && begin.is_coalescence()) {
         return Ok(false);
     }
     let between = checked.guess_at(0.5 * (from + to))?;
@@ -161,14 +161,15 @@ fn end(checked: &CheckedModes<'_>, stretch: &Stretch<'_>, bound: Bound, point: C
         off <= SAME_END * way + margin && before.max(beyond) <= margin && is_outwards
     };
     let found = checked.double_eigenvalue(expected, c64::new(square, 0.0).sqrt());
-    End::Coalescence(match found.filter(is_same) {
+    match found.filter(is_same) {
         Some(found) => {
             let (number, slope) = squared((found.lambda, found.mean_slope));
             let slope = if is_mean { slope } else { UNKNOWN };
-            CurvePoint::new(found.speed_rad_per_s, (c64::from(number.re), slope))
+            let number = (c64::from(number.re), slope);
+            End::Coalescence(CurvePoint::new(found.speed_rad_per_s, number))
         }
-        None => CurvePoint::new(expected, (c64::from(square), UNKNOWN)),
-    })
+        None => End::Interpolated(CurvePoint::new(expected, (c64::from(square), UNKNOWN))),
+    }
 }
 
 #[cfg(test)]

@@ -4,7 +4,7 @@ use faer::c64;
 
 use crate::model::scene::SpeedRange;
 use crate::modes::{SpectrumError, smallest};
-use crate::stability::band::{BESIDE_END, CurvePoint, Instability};
+use crate::stability::band::{BESIDE_END, BandEnd, CurvePoint, Instability};
 use crate::stability::growth_curve::{GrowthCurve, Numbers, between};
 use crate::stability::instability_kind::InstabilityKind;
 use crate::stability::sample::Plane;
@@ -18,6 +18,8 @@ pub const UNKNOWN: c64 = c64::new(f64::NAN, 0.0);
 pub enum End {
     /// Coalescence of two waves, or of two real λ.
     Coalescence(CurvePoint),
+    /// Coalescence of interpolated numbers, near which no iteration found one.
+    Interpolated(CurvePoint),
     /// Critical speed: λ passes through zero.
     Critical(f64),
     /// End of the range inside the interval.
@@ -30,15 +32,30 @@ impl End {
     /// Rotation speed Ω.
     pub fn speed(&self) -> f64 {
         match self {
-            End::Coalescence(point) => point.speed_rad_per_s,
+            End::Coalescence(point) | End::Interpolated(point) => point.speed_rad_per_s,
             End::Critical(speed) | End::Range(speed) | End::Unknown(speed) => *speed,
+        }
+    }
+
+    /// Whether two numbers coalesce at the end.
+    pub fn is_coalescence(&self) -> bool {
+        matches!(self, End::Coalescence(_) | End::Interpolated(_))
+    }
+
+    /// The end in a list of bands.
+    fn of_band(&self) -> BandEnd {
+        match self {
+            End::Coalescence(point) => BandEnd::Coalescence(point.number.sqrt()),
+            End::Critical(_) => BandEnd::Critical,
+            End::Range(_) => BandEnd::Range,
+            End::Interpolated(_) | End::Unknown(_) => BandEnd::Interpolated,
         }
     }
 
     /// λ² at the end, if it is known.
     fn point(&self) -> Option<CurvePoint> {
         match self {
-            End::Coalescence(point) => Some(*point),
+            End::Coalescence(point) | End::Interpolated(point) => Some(*point),
             End::Critical(speed) => Some(CurvePoint::new(*speed, (c64::ZERO, UNKNOWN))),
             End::Range(_) | End::Unknown(_) => None,
         }
@@ -77,17 +94,25 @@ impl GrowingStretch {
         let mut peak = curve.peak([0, curve.points.len() - 1]);
         let [from, to] = range.ends();
         for (edge, other) in [(begin, to), (end, from)] {
-            if matches!(edge, End::Coalescence(_)) && edge.speed() == peak.speed_rad_per_s {
+            if edge.is_coalescence() && edge.speed() == peak.speed_rad_per_s {
                 let speed = edge.speed() + BESIDE_END * (other - edge.speed());
                 peak = continued(numbers, &curve.points, speed)?;
             }
         }
         let lambda = peak.number.sqrt();
         let is_open = |end: &End| matches!(end, End::Range(_));
+        let of_band = |edge: End, speed: f64| {
+            if edge.speed() == speed {
+                edge.of_band()
+            } else {
+                BandEnd::Range
+            }
+        };
         Ok(Instability {
             kind: self.kind,
             from_rad_per_s: from,
             to_rad_per_s: to,
+            ends: [of_band(begin, from), of_band(end, to)],
             closed: !self.ends.iter().any(is_open),
             peak_rad_per_s: peak.speed_rad_per_s,
             peak_growth_per_s: Plane::Squares.growth_per_s(peak.number),

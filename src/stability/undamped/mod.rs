@@ -19,7 +19,7 @@ pub(crate) use self::certification::Depth;
 pub(super) use self::certification::drawn_share;
 pub(super) use self::loci::RootLoci;
 
-use self::certification::{Searched, bands, last_below};
+use self::certification::{Searched, last_below, searched};
 use self::extent::Extent;
 use self::known::Known;
 use crate::model::evenly_spaced;
@@ -59,7 +59,7 @@ pub(super) fn charted<'a>(
         found,
         solved,
         pieces,
-    } = bands(model, range, &search, depth, Extent::Diagram)?;
+    } = searched(model, range, &search, depth, Extent::Diagram)?;
     options.report(&model.critical, range, Some(&found.instabilities));
     let inside = solved
         .iter()
@@ -95,7 +95,7 @@ pub fn undamped_bands(
     count: usize,
 ) -> Result<FoundBands, SpectrumError> {
     let speeds = search_speeds(model, range, count);
-    Ok(bands(model, range, &speeds, Depth::Counts, Extent::Bands)?.found)
+    Ok(searched(model, range, &speeds, Depth::Counts, Extent::Bands)?.found)
 }
 
 /// Start speeds of the search for bands from the last one below the first critical speed on, see [`speeds_of_search`].

@@ -27,6 +27,8 @@ pub enum Answer {
     Flutter,
     /// The estimated error of the edge of a band leaves open whether the saw is stable.
     TooClose,
+    /// The search for bands failed.
+    NotDetermined,
     /// The sweep does not include the operating speed.
     OutsideSweep,
 }
@@ -38,6 +40,7 @@ impl Answer {
             StabilityState::Divergence => Answer::Divergence,
             StabilityState::Flutter => Answer::Flutter,
             StabilityState::TooClose => Answer::TooClose,
+            StabilityState::NotDetermined => Answer::NotDetermined,
             StabilityState::OutsideSweep => Answer::OutsideSweep,
             StabilityState::Stable if operating.at_critical_rpm.is_some() => Answer::AtCritical,
             StabilityState::Stable if operating.within_limit == Some(false) => Answer::PastRule,
@@ -54,6 +57,7 @@ impl Answer {
             Answer::Divergence => "divergence",
             Answer::Flutter => "flutter",
             Answer::TooClose => "too close",
+            Answer::NotDetermined => "not determined",
             Answer::OutsideSweep => "outside sweep",
         }
     }
@@ -66,6 +70,7 @@ impl Answer {
             Answer::Divergence => "NO, UNSTABLE: divergence",
             Answer::Flutter => "NO, UNSTABLE: flutter",
             Answer::TooClose => "TOO CLOSE TO CALL",
+            Answer::NotDetermined => "UNKNOWN: the search for bands failed",
             Answer::OutsideSweep => "UNKNOWN: outside the sweep",
         }
     }
@@ -98,8 +103,10 @@ fn at_operating_speed(text: &mut Outline, report: &Report, operating: &Operating
     if let Some(band) = band {
         text.reason(inside(band));
     }
-    if Answer::new(operating) == Answer::OutsideSweep {
-        text.reason(WIDEN);
+    match Answer::new(operating) {
+        Answer::OutsideSweep => text.reason(WIDEN),
+        Answer::NotDetermined => text.reason(failed(report)),
+        _ => (),
     }
     if let (Some(growth), Some(hz)) = (operating.growth_per_s, operating.frequency_hz) {
         text.reason(fastest(report, growth, hz, band.is_some()));
@@ -125,6 +132,12 @@ fn at_operating_speed(text: &mut Outline, report: &Report, operating: &Operating
 
 const WIDEN: &str = "widen `sweep` so that it includes operating_rpm";
 
+/// States which checks the search fails, and the remedy.
+fn failed(report: &Report) -> String {
+    let statement = &report.certificate.statement;
+    format!("{statement}; a shorter sweep or another accuracy may avoid this")
+}
+
 /// The reason that decides the answer at the operating speed.
 #[cfg(feature = "page")]
 pub fn deciding(report: &Report, operating: &OperatingPoint) -> Option<String> {
@@ -135,6 +148,7 @@ pub fn deciding(report: &Report, operating: &OperatingPoint) -> Option<String> {
         }
         Answer::TooClose => undecided(report, operating),
         Answer::OutsideSweep => Some(WIDEN.to_owned()),
+        Answer::NotDetermined => Some(failed(report)),
         Answer::AtCritical => at_critical_speed(report, operating),
         Answer::PastRule | Answer::Runs => rule(operating).or_else(|| usable(report, operating)),
     }
@@ -165,7 +179,7 @@ fn undecided(report: &Report, operating: &OperatingPoint) -> Option<String> {
     let edge = operating.undecided_edge_rpm?;
     let mut bands = report.instabilities.iter();
     let band = bands.find(|band| [band.from_rpm, band.to_rpm].contains(&edge))?;
-    let error = band.estimated_relative_error? * edge;
+    let error = band.estimated_relative_error.map(|error| error * edge);
     Some(too_close(edge, error, report.accuracy.name))
 }
 
@@ -179,15 +193,24 @@ pub fn caution(report: &Report) -> Option<String> {
             format!("too close to call whether the saw is stable: {reason}")
         }
         Answer::AtCritical => at_critical_speed(report, operating)?,
+        Answer::NotDetermined => {
+            format!(
+                "it is unknown whether the saw is stable: {}",
+                failed(report)
+            )
+        }
         _ => return None,
     };
     Some(format!("at {:.0} rpm {said}", operating.rpm))
 }
 
 /// States that the estimated error of the edge of a band leaves open whether a saw is stable, and the remedy.
-pub fn too_close(edge_rpm: f64, error_rpm: f64, accuracy: Accuracy) -> String {
+pub fn too_close(edge_rpm: f64, error_rpm: Option<f64>, accuracy: Accuracy) -> String {
+    let error = error_rpm.map_or("an error that is unknown".to_owned(), |error| {
+        format!("an estimated error of {error:.2} rpm")
+    });
     format!(
-        "the edge of a band, {edge_rpm:.2} rpm, has an estimated error of {error_rpm:.2} rpm; {}",
+        "the edge of a band, {edge_rpm:.2} rpm, has {error}; {}",
         sharper(accuracy)
     )
 }
@@ -257,7 +280,9 @@ fn up_to(text: &mut Outline, report: &Report) {
     let counted = report.instabilities.iter().flat_map(|b| &b.counted_rpm);
     let first = counted.map(|stretch| stretch[0]).reduce(f64::min);
     let from = report.campbell.from_rpm;
+    let has_failed = report.certificate.has_failed();
     text.headline(match first {
+        _ if has_failed => "UNKNOWN: the search for bands failed".to_owned(),
         Some(first) if first > from => {
             format!("No instability from {from:.0} to {first:.1} rpm")
         }
@@ -267,6 +292,9 @@ fn up_to(text: &mut Outline, report: &Report) {
             report.campbell.to_rpm
         ),
     });
+    if has_failed {
+        text.reason(failed(report));
+    }
     if let Some(critical) = report.critical_speeds.first() {
         text.reason(format!(
             "first critical speed {:.1} rpm ({})",
@@ -278,6 +306,10 @@ fn up_to(text: &mut Outline, report: &Report) {
 
 /// Adds the flutter speed, and the onset of weak flutter below it.
 fn flutter(text: &mut Outline, report: &Report) {
+    if report.certificate.has_failed() {
+        text.sentence("Flutter speed: not determined");
+        return;
+    }
     let threshold = report.flutter_threshold_per_s;
     text.sentence(match report.flutter_speed_rpm {
         Some(rpm) => {
@@ -288,7 +320,9 @@ fn flutter(text: &mut Outline, report: &Report) {
             let band = report.instabilities.iter().find(is_its);
             let error = band
                 .and_then(|band| band.estimated_relative_error)
-                .map_or(String::new(), |share| format!(" ± {:.1}", share * rpm));
+                .map_or(" (error unknown)".to_owned(), |share| {
+                    format!(" ± {:.1}", share * rpm)
+                });
             format!("Flutter speed: {rpm:.0} rpm{error} (growth of {threshold} 1/s or more)")
         }
         None => format!(
@@ -326,4 +360,36 @@ fn end_of_window(report: &Report, rpm: f64) -> String {
             critical.rpm
         )
     })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::analyses::campbell::sample::busy_report;
+
+    /// The bands contradict the eigenvalues at a third of the speeds.
+    #[test]
+    fn a_failed_search_gives_no_verdict_and_no_flutter_speed() {
+        let mut report = busy_report();
+        let certificate = &mut report.certificate;
+        (certificate.speeds_checked, certificate.krein_violations) = (60, 20);
+        if let Some(operating) = &mut report.operating {
+            operating.verdict = StabilityState::NotDetermined;
+            operating.inside_instability = None;
+        }
+        for with_speed in [true, false] {
+            if !with_speed {
+                report.operating = None;
+            }
+            let text = answer(&report).in_columns(false);
+            let mut lines = text.lines();
+            let first = lines.next().unwrap();
+            assert!(
+                first.contains("UNKNOWN: the search for bands failed"),
+                "{text}"
+            );
+            assert!(text.contains("Flutter speed: not determined"), "{text}");
+            assert!(!text.contains('±'), "{text}");
+        }
+    }
 }

@@ -1,5 +1,6 @@
 //! The checks of a diagram, and its accuracy.
 
+use crate::analyses::campbell::certificate::interpolated;
 use crate::analyses::campbell::{BandCertificate, Report};
 use crate::page::outline::{Outline, PERCENT};
 use crate::page::text::shown_to;
@@ -55,7 +56,9 @@ fn in_one_line(certificate: &BandCertificate) -> String {
             shown_to(4, (1e3 * share).floor() / 10.0)
         ),
     };
-    format!("all {agree} independent checks agree{proven}")
+    let interpolated = interpolated(certificate.interpolated);
+    let interpolated = interpolated.map_or(String::new(), |words| format!("; {words}"));
+    format!("all {agree} independent checks agree{proven}{interpolated}")
 }
 
 /// States whether growth above the threshold is possible in unproven intervals of speed that matter for the

@@ -14,6 +14,7 @@ pub fn whirl(text: &mut Outline, report: &Report) {
         StabilityState::Divergence => "UNSTABLE, divergence",
         StabilityState::Flutter => "UNSTABLE, flutter",
         StabilityState::TooClose => "TOO CLOSE TO CALL at the edge of a band",
+        StabilityState::NotDetermined => "UNKNOWN, the search for bands failed",
         StabilityState::OutsideSweep => "outside the sweep",
     };
     let critical = whirl

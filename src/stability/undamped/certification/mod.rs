@@ -9,7 +9,7 @@ use super::proof::Proof;
 use crate::model::scene::{Accuracy, SpeedRange};
 use crate::modes::branches::ModesAt;
 use crate::modes::{SpectralModel, SpectrumError};
-use crate::stability::band::Instability;
+use crate::stability::band::{BandEnd, Instability};
 use crate::stability::certificate::{Certificate, GROWTH_FLOOR, contradictions};
 use crate::stability::instability_kind::InstabilityKind;
 use crate::stability::mode_counts::{MiscountedModes, ModeCounts};
@@ -58,42 +58,19 @@ const LEAST_BESIDE: f64 = 6e-5;
 /// Relative distance from a critical speed below which eigenvalues next to zero are rounding.
 const NEXT_TO_CRITICAL: f64 = 1e-4;
 
-/// Finds every band within a range by a search between the first and the last of `speeds`, which should cover
-/// the range from the first critical speed on. Searches again with more waves if counts contradict the
-/// modes.
-pub fn bands(
-    model: &SpectralModel,
-    range: SpeedRange,
-    speeds: &[f64],
-    depth: Depth,
-    extent: Extent,
-) -> Result<Searched, SpectrumError> {
-    let searched_once = searched(model, range, speeds, depth, extent)?;
-    if searched_once.found.certificate.miscounts.is_empty() {
-        return Ok(searched_once);
-    }
-    let more = model.with_more_waves()?;
-    let mut found = searched(&more, range, speeds, depth, extent)?.found;
-    found.certificate.searched_again = true;
-    Ok(Searched {
-        found,
-        solved: Vec::new(),
-        pieces: Vec::new(),
-    })
-}
-
 /// Result of a search.
 pub struct Searched {
     /// Bands and certificate.
     pub found: FoundBands,
-    /// Modes of the model at the speeds of the search; empty if more waves were needed.
+    /// Modes of the model at the speeds of the search.
     pub solved: Vec<ModesAt>,
     /// Pieces between these speeds; empty for a free blade, too.
     pub pieces: Vec<Piece>,
 }
 
-/// Bands and certificate by one search.
-fn searched(
+/// Finds every band within a range by a search between the first and the last of `speeds`, which should cover
+/// the range from the first critical speed on.
+pub fn searched(
     model: &SpectralModel,
     range: SpeedRange,
     speeds: &[f64],
@@ -146,6 +123,9 @@ fn searched(
         samples: &samples,
     };
     let mut certificate = checks.certificate(depth)?;
+    let ends = bands.iter().flat_map(|band| &band.ends);
+    let interpolated = ends.filter(|end| matches!(end, BandEnd::Interpolated));
+    certificate.interpolated += interpolated.count();
     if let Some(unproven) = &mut certificate.unproven_rad_per_s {
         unproven.extend(unsearched(model, range, speeds));
         *unproven = clipped(unproven, range);
