@@ -23,6 +23,9 @@ pub trait Numbers {
     /// [`SpectrumError`] when an eigenproblem fails.
     fn nearest(&self, speed_rad_per_s: f64, expected: c64)
     -> Result<Option<Sloped>, SpectrumError>;
+
+    /// Counts a point of a band that is interpolated, because there is no number.
+    fn note_interpolated(&self) {}
 }
 
 /// Points of a curve at ascending speeds, among them every extremum of growth.
@@ -120,6 +123,9 @@ pub fn between(
     let expected = c64::new(cubic(|z| z.re), cubic(|z| z.im));
     let speed_rad_per_s = from + share * (to - from);
     let found = numbers.nearest(speed_rad_per_s, expected)?;
+    if found.is_none() {
+        numbers.note_interpolated();
+    }
     let sloped = found.unwrap_or((expected, points[0].slope));
     Ok(CurvePoint::new(speed_rad_per_s, sloped))
 }

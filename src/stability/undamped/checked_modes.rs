@@ -34,7 +34,7 @@ const BESIDE_COALESCENCE: f64 = 1e-7;
 struct Tally {
     checked: AtomicUsize,
     violations: Mutex<Vec<f64>>,
-    /// Number of speeds within bands at which no mode grows, so that growth is interpolated.
+    /// Number of points of bands at which no mode grows, so that growth is interpolated.
     interpolated: AtomicUsize,
 }
 
@@ -65,11 +65,13 @@ impl Numbers for CheckedModes<'_> {
         }
         let sample = self.at(speed_rad_per_s)?;
         let growing = sample.quadruples().chain(sample.divergences());
-        let found = smallest(growing, |(square, _)| (square.sqrt() - wanted).norm());
-        if found.is_none() {
-            self.tally.interpolated.fetch_add(1, Ordering::Relaxed);
-        }
-        Ok(found)
+        Ok(smallest(growing, |(square, _)| {
+            (square.sqrt() - wanted).norm()
+        }))
+    }
+
+    fn note_interpolated(&self) {
+        self.tally.interpolated.fetch_add(1, Ordering::Relaxed);
     }
 }
 

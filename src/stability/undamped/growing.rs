@@ -142,6 +142,7 @@ fn end(checked: &CheckedModes<'_>, stretch: &Stretch<'_>, bound: Bound, point: C
             outside_rad_per_s,
         } => (expected_rad_per_s, outside_rad_per_s),
         Bound::Critical(speed) => return End::Critical(speed),
+        Bound::Passed(speed) => return End::Passed(speed),
         Bound::Range(speed) => return End::Range(speed),
         Bound::Unfollowed(speed) => return End::Unknown(speed),
     };

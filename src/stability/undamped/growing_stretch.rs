@@ -22,6 +22,8 @@ pub enum End {
     Interpolated(CurvePoint),
     /// Critical speed: λ passes through zero.
     Critical(f64),
+    /// Critical speed beside another one, between which the growth is nearly constant.
+    Passed(f64),
     /// End of the range inside the interval.
     Range(f64),
     /// Estimated end of an eigenvalue that could not be followed to it.
@@ -33,7 +35,9 @@ impl End {
     pub fn speed(&self) -> f64 {
         match self {
             End::Coalescence(point) | End::Interpolated(point) => point.speed_rad_per_s,
-            End::Critical(speed) | End::Range(speed) | End::Unknown(speed) => *speed,
+            End::Critical(speed) | End::Passed(speed) | End::Range(speed) | End::Unknown(speed) => {
+                *speed
+            }
         }
     }
 
@@ -46,7 +50,7 @@ impl End {
     fn of_band(&self) -> BandEnd {
         match self {
             End::Coalescence(point) => BandEnd::Coalescence(point.number.sqrt()),
-            End::Critical(_) => BandEnd::Critical,
+            End::Critical(_) | End::Passed(_) => BandEnd::Critical,
             End::Range(_) => BandEnd::Range,
             End::Interpolated(_) | End::Unknown(_) => BandEnd::Interpolated,
         }
@@ -57,7 +61,7 @@ impl End {
         match self {
             End::Coalescence(point) | End::Interpolated(point) => Some(*point),
             End::Critical(speed) => Some(CurvePoint::new(*speed, (c64::ZERO, UNKNOWN))),
-            End::Range(_) | End::Unknown(_) => None,
+            End::Passed(_) | End::Range(_) | End::Unknown(_) => None,
         }
     }
 }
@@ -183,6 +187,9 @@ fn continued(
     let nearest = *smallest(known, away).unwrap_or(&known[0]);
     let step = speed_rad_per_s - nearest.speed_rad_per_s;
     let found = numbers.nearest(speed_rad_per_s, nearest.number + nearest.slope * step)?;
+    if found.is_none() {
+        numbers.note_interpolated();
+    }
     let sloped = found.unwrap_or((nearest.number, nearest.slope));
     Ok(CurvePoint::new(speed_rad_per_s, sloped))
 }

@@ -21,10 +21,11 @@ pub enum Bound {
     },
     /// Critical speed.
     Critical(f64),
+    /// Critical speed that the search passes in one step with that at the other end.
+    Passed(f64),
     /// End of the search inside the interval.
     Range(f64),
-    /// Speed up to which the number could be followed: it crosses the highest frequency, or the search passes the whole interval in
-    /// one step.
+    /// Speed up to which the number could be followed, because it crosses the highest frequency.
     Unfollowed(f64),
 }
 
@@ -36,6 +37,7 @@ impl Bound {
                 ..
             }
             | Bound::Critical(speed)
+            | Bound::Passed(speed)
             | Bound::Range(speed)
             | Bound::Unfollowed(speed) => *speed,
         }
@@ -259,8 +261,8 @@ impl<'a, 'c> Reader<'a, 'c> {
                 .filter(|pair| !is_double(pair[0], pair[1]));
             self.ended.extend(pairs.map(|pair| Stretch {
                 kind: self.kind,
-                begin: Bound::Unfollowed(pair[0]),
-                end: Bound::Unfollowed(pair[1]),
+                begin: Bound::Passed(pair[0]),
+                end: Bound::Passed(pair[1]),
                 points: Vec::new(),
                 parts: Vec::new(),
             }));
