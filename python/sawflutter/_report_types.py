@@ -584,13 +584,13 @@ class Certificate(Entry):
         of the diagram; none are expected.
     gave_up : Whether the search for bands ended at its limit of work, so that bands may be
         missing.
+    interpolated : Number of ends of bands, and of speeds within them, that are interpolated,
+        because no eigenvalue was found there; 0 is expected.
     unproven_rpm : The remaining intervals, which were searched but not proven: from and to.
     unproven_counting_rpm : Parts of the remaining intervals in which, by this estimate, the
         growth of an undetected band could reach the threshold: from and to.
     max_backward_error : Largest backward error, on the full model, of the modes at rest, at
         three speeds of the diagram and at the peaks of the bands.
-    interpolated : Number of ends of bands, and of speeds within them, that are interpolated,
-        because no eigenvalue was found there; 0 is expected.
     proven_share : Share of the sweep that is proven to have no unlisted instability, rounded
         down to four digits; absent if no proof was tried.
     unproven_growth_per_s : Estimate, not proof, of the largest growth of an undetected band in
@@ -611,10 +611,10 @@ class Certificate(Entry):
     searched_again: bool
     mismatches: tuple[Mismatch, ...]
     gave_up: bool
+    interpolated: int = field(default=0)
     unproven_rpm: FloatArray
     unproven_counting_rpm: FloatArray
     max_backward_error: float
-    interpolated: int = field(default=0)
     proven_share: float | None = field(default=None)
     unproven_growth_per_s: float | None = field(default=None)
     max_listed_backward_error: float | None = field(default=None)
@@ -1356,8 +1356,8 @@ class CutRun(Entry):
     stretching : Results with stretching, if the scene requests it.
     time_s : Times of the record.
     deflection_m : Deflection at the probe, up to 1.5 % of its largest value off, because it is
-        made of the 42 lowest modes with and without the forces; with stretching up to about
-        3 %, of 8 modes.
+        made of the 42 lowest modes with and without the forces; with stretching up to about 3
+        %, of 8 modes.
     map : Verdict over guide angle and load.
     spline : The cut with the reaction of the simulated spline teeth, if the scene requests it.
     """
@@ -2730,8 +2730,8 @@ class DecisiveSpeed(Entry):
     margin_rpm : Distance above the operating speed, negative below it; null without one of
         both.
     tolerance_rpm : Change of the speed by usual tolerances of production, to first order: the
-        root of the sum of the squares of the changes by each number. Null if the onset of the
-        band is no event with a derivative.
+        root of the sum of the squares of the changes by each number. Null if the speed has no
+        derivative.
     """
 
     speed: DecidedSpeed

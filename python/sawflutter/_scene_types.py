@@ -144,9 +144,9 @@ class GuideArmDict(_GuideArmDict, total=False):
 class GuideFilmDict(TypedDict):
     """The film of water, oil or air between a pad and the blade. What it presses out and draws
     in damps the blade, and its compressibility delays this force: τ df/dt + f = c dw/dt with
-    the damping c of the pad and the mean deflection w over the pad, so that a film damps slow
-    motions and is a spring of c/τ for fast ones. Deflections without a mean exchange fluid only
-    within the pad; their damping does not lag."""
+    the damping c of the pad, for the heave and for the two tilts w of the blade over the pad,
+    so that a film damps slow motions and is a spring of c/τ for fast ones. Within the pad the
+    blade is taken as rigid."""
 
     lag_s: float
     """Lag τ of the force of the film, the inverse of its cut-off frequency in rad/s: 12 η
@@ -168,9 +168,8 @@ class GuideControllerDict(TypedDict):
     most one degree more than the denominator."""
 
     denominator: list[float]
-    """Coefficients of the denominator, from the highest power of s to the constant, of which
-    neither is zero. Its roots differ, have magnitudes from 1e-3 to 1e6 1/s, and none is real
-    and positive."""
+    """Coefficients of the denominator, from the highest power of s to the constant. Its roots
+    differ; their magnitudes are 0, of an integrator, or from 1e-3 to 1e6 1/s."""
 
 
 class _GuideDict(TypedDict):

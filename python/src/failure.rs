@@ -78,7 +78,7 @@ impl Failure {
             key,
             value,
             allowed,
-            remedy,
+            remedy: remedy.into(),
         }
         .into()
     }

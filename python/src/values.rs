@@ -135,7 +135,7 @@ fn finite(path: &str, number: f64) -> PyResult<Value> {
         key: path.to_owned(),
         value: number.to_string().to_lowercase(),
         allowed: "a finite number".to_owned(),
-        remedy: "give a number, or None to leave the key out",
+        remedy: "give a number, or None to leave the key out".into(),
     };
     Err(Failure::from(SceneError::Value(refused)).into())
 }

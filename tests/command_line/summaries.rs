@@ -234,8 +234,8 @@ fn at_operating(operating_rpm: f64) -> sawflutter::analyses::campbell::Report {
 }
 
 #[test]
-fn a_standing_saw_has_a_limit_of_its_speed() {
-    let report = at_operating(0.0);
+fn a_saw_that_hardly_turns_has_a_limit_of_its_speed() {
+    let report = at_operating(1e-3);
     let (summary, critical) = (report.summary(), report.critical_speeds[0].rpm);
     fits(&summary);
     assert!(!summary.contains("NaN"), "{summary}");

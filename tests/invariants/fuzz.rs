@@ -12,8 +12,8 @@ use crate::survivors::{Keys, assert_survives, rng, sawing_scenes, scenes};
 
 #[test]
 fn drawn_scenes_on_a_small_basis() {
-    let drawn = scenes(1000, Keys::All);
-    println!("{} of 1000 are valid", drawn.len());
+    let drawn = scenes(2000, Keys::All);
+    println!("{} of 2000 are valid", drawn.len());
     assert!(drawn.len() > 300, "the draw tests nothing: {}", drawn.len());
     drawn
         .par_iter()

@@ -45,6 +45,7 @@ fn contours_of_a_plane_and_of_a_cone_are_lines_and_circles() {
 fn divergence_counts_before_flutter() {
     let band = |kind, counted: &[[f64; 2]]| InstabilityBand {
         counted_rpm: counted.to_vec(),
+        estimated_relative_error: Some(1e-6),
         ..InstabilityBand::between(kind, [1000.0, 1100.0])
     };
     let flutter = band(InstabilityKind::Flutter, &[[1020.0, 1080.0]]);
@@ -60,4 +61,11 @@ fn divergence_counts_before_flutter() {
     });
     let states = [997.0, 999.0, 1001.0, 1003.0].map(|rpm| state_at(&known, rpm, 2000.0));
     assert_eq!(states, [Stable, TooClose, TooClose, Divergence]);
+    // An edge of which the error is unknown.
+    let unknown = known.map(|band| InstabilityBand {
+        estimated_relative_error: None,
+        ..band
+    });
+    let states = [985.0, 995.0, 1005.0].map(|rpm| state_at(&unknown, rpm, 2000.0));
+    assert_eq!(states, [Stable, TooClose, TooClose]);
 }

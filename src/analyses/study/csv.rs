@@ -130,7 +130,7 @@ fn found(study: &Study, cells: &[&str]) -> Option<Found> {
         "" => Some(None),
         digits => digits.parse::<f64>().ok().map(Some),
     };
-    let (critical_rpm, bands, cells) = match (study.file().bands, cells) {
+    let (critical_rpm, mut bands, cells) = match (study.file().bands, cells) {
         (true, [cells @ .., critical, bands]) => (numbers_of(critical)?, bands_of(bands)?, cells),
         _ => (Vec::new(), Vec::new(), cells),
     };
@@ -154,6 +154,11 @@ fn found(study: &Study, cells: &[&str]) -> Option<Found> {
         .iter()
         .map(|k| k.parse().ok())
         .collect::<Option<_>>()?;
+    let estimated_relative_error = number(error)??;
+    // Edges have the error of the critical speeds, which the text of a band does not repeat.
+    for band in &mut bands {
+        band.estimated_relative_error = Some(estimated_relative_error);
+    }
     Some(Found {
         lowest_critical_rpm: number(critical)?,
         flutter_rpm: number(flutter)?,
@@ -161,7 +166,7 @@ fn found(study: &Study, cells: &[&str]) -> Option<Found> {
         kept,
         gap: gap.iter().map(|cell| number(cell)).collect::<Option<_>>()?,
         functions: functions.parse().ok()?,
-        estimated_relative_error: number(error)??,
+        estimated_relative_error,
         krein_violations: violations.parse().ok()?,
         critical_rpm,
         bands,

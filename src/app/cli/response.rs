@@ -17,7 +17,8 @@ Examples:
   sawflutter response my-saw.json --json | jq '.lines[].resonances'
 
 Causes are `side_force`, constant or oscillating, and runout_m, flatness_m and
-imbalance_kg_m2 of the block `response`. Without any, the force is the lateral one of\nthe cut, or 1 N.";
+imbalance_kg_m2 of the block `response`. Without any, the force is the lateral
+one of the cut, or 1 N.";
 
 #[derive(Args)]
 pub struct Arguments {

@@ -55,12 +55,12 @@ pub static QUANTITIES: [Quantity; 109] = [
     // No tooth is heavier.
     q("blade.rim.mass_per_tooth_kg", "mass of a tooth", "kg", Span::closed(0.0, 1e3), 1e-6, 10.0),
     q("blade.rim.radius_m", "radius of the mass of teeth", "m", RADIUS, 0.02, 2.5).of_kind(Kind::Radius),
-    // From soft plastic to ten times diamond.
-    q("blade.material.youngs_modulus_pa", "Young's modulus", "Pa", Span::closed(1e8, 1e13), 4e10, 7.5e11),
+    // From rubber to ten times diamond.
+    q("blade.material.youngs_modulus_pa", "Young's modulus", "Pa", Span::closed(1e7, 1e13), 4e10, 7.5e11),
     // The limits of an isotropic material.
     q("blade.material.poisson_ratio", "Poisson's ratio", "", Span::open(-1.0, 0.5), 0.15, 0.45),
-    // From foam to forty times osmium, the densest metal.
-    q("blade.material.density_kg_per_m3", "density", "kg/m³", Span::closed(10.0, 1e6), 2e3, 2e4),
+    // From aerogel to forty times osmium, the densest metal.
+    q("blade.material.density_kg_per_m3", "density", "kg/m³", Span::closed(1.0, 1e6), 2e3, 2e4),
     q("mount.diameter_m", "collar diameter", "m", LENGTH, 0.01, 3.0),
     q("guides[].radius_m", "radius of the guide", "m", RADIUS_OR_NONE, 0.005, 2.5).of_kind(Kind::GuideRadius),
     q("guides[].angle_deg", "angle of the guide", "°", ANGLE, -360.0, 360.0).of_kind(Kind::Angle),
@@ -69,11 +69,11 @@ pub static QUANTITIES: [Quantity; 109] = [
     q("guides[].stiffness_n_per_m", "stiffness of the guide", "N/m", STIFFNESS, 2.5e4, 1e10).of_kind(Kind::Stiffness)
         .typically(1e7, "", 1e6, 2e8, "2e7 was calibrated on the paper's Table 5 for a pad of 0.15 m by 0.15 m with 0.05 mm clearance; upper end computed from a pressurized film"),
     q("guides[].damping_n_s_per_m", "damping of the guide", "N·s/m", DAMPING, 1e-2, 1e6).of_kind(Kind::Damping),
-    // Smaller than an atom is no gap; no blade closes a larger one.
-    q("guides[].gap_m", "gap of the guide", "m", Span::closed(1e-9, 0.1), 1e-6, 5e-3).of_kind(Kind::Gap),
+    // A hundredth of an atom is no gap; no blade closes a larger one.
+    q("guides[].gap_m", "gap of the guide", "m", Span::closed(1e-12, 1.0), 1e-6, 5e-3).of_kind(Kind::Gap),
     q("guides[].film_stiffness_n_per_m", "stiffness within the gap of the guide", "N/m", STIFFNESS, 10.0, 1e10),
     // A softer arm holds nothing; the upper end is that of contacts.
-    q("guides[].arm.stiffness_n_per_m", "stiffness of the guide's arm", "N/m", Span::closed(1e-3, 1e10), 2.5e4, 1e10).of_kind(Kind::Stiffness)
+    q("guides[].arm.stiffness_n_per_m", "stiffness of the guide's arm", "N/m", Span::closed(1e-6, 1e10), 2.5e4, 1e10).of_kind(Kind::Stiffness)
         .typically(2.5e6, "", 5e5, 7e7, "computed from 3EI/l³ for steel arms of 40 mm by 20 mm, bent over the 40 mm, 0.5 to 0.1 m long; 0.3 m is usual"),
     // A head of ten tonnes is heavier than the machine.
     q("guides[].arm.mass_kg", "mass of the guide's head", "kg", Span::closed(0.0, 1e4), 0.01, 100.0)
@@ -134,8 +134,8 @@ pub static QUANTITIES: [Quantity; 109] = [
     // A flank with a larger angle acts as a radial stop and does not drive.
     q("spline.pressure_angle_deg", "pressure angle", "°", Span::closed(0.0, 60.0), 5.0, 60.0),
     // Hertzian contact of a sphere of 100 m on diamond has 1e13 N/m^(3/2).
-    q("spline.contact_stiffness_n_per_m_3_2", "contact stiffness", "N/m^(3/2)", Span::closed(1.0, 1e15), 1e3, 1e14),
-    q("spline.contact_damping_n_s_3_2_per_m_3_2", "contact damping", "N·(s/m)^(3/2)", Span::closed(0.0, 1e12), 1e-3, 1e9),
+    q("spline.contact_stiffness_n_per_m_3_2", "contact stiffness", "N/m^(3/2)", Span::closed(1e-12, 1e15), 1e3, 1e14),
+    q("spline.contact_damping_n_s_3_2_per_m_3_2", "contact damping", "N·(s/m)^(3/2)", Span::closed(0.0, 1e18), 1e-3, 1e9),
     q("spline.clearance_m", "clearance of the spline", "m", Span::closed(0.0, 1.0), 1e-7, 0.02),
     q("spline.pitch_radius_m", "pitch radius of the spline", "m", RADIUS, 1e-3, 1.0),
     q("spline.weight_angle_deg", "direction of the weight", "°", ANGLE, -360.0, 360.0).of_kind(Kind::Angle),
