@@ -98,7 +98,7 @@ fn value(class: &'static str, refused: RefusedValue) -> Failure {
         key: Some(refused.key),
         value: Some(refused.value),
         allowed: Some(refused.allowed),
-        remedy: Some(refused.remedy.into_owned()),
+        remedy: Some(refused.remedy.into_string()),
     }))
 }
 

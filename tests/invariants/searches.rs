@@ -20,7 +20,7 @@ fn a_sweep_that_ends_within_a_band_does_not_contradict_its_growth() {
             from_rpm: 0.0,
             to_rpm,
         };
-        let swept = scene.edited(|file| file.sweep = Some(sweep.clone()));
+        let swept = scene.edited(|file| file.sweep = Some(sweep));
         let analysis = Analysis::new(&swept.unwrap()).unwrap();
         let certificate = &analysis.chart.certificate;
         assert!(certificate.is_clean(), "{to_rpm}: {certificate:?}");

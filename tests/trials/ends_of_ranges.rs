@@ -50,9 +50,10 @@ fn numbers(value: &Value, pointer: &str, found: &mut Vec<String>) {
 fn path(pointer: &str) -> String {
     let steps = pointer.split('/').skip(1);
     let path = steps.fold(String::new(), |path, step| {
-        match step.parse::<usize>().is_ok() {
-            true => format!("{path}[{step}]"),
-            false => format!("{path}.{step}"),
+        if step.parse::<usize>().is_ok() {
+            format!("{path}[{step}]")
+        } else {
+            format!("{path}.{step}")
         }
     });
     path.trim_start_matches('.').to_owned()
@@ -88,9 +89,10 @@ fn both_ends_of_every_range_are_computed_or_refused_in_time() {
             let is_whole = scene.pointer(&pointer).is_some_and(Value::is_u64);
             for end in [quantity.allowed.from, quantity.allowed.to] {
                 let mut scene = scene.clone();
-                *scene.pointer_mut(&pointer).unwrap() = match is_whole {
-                    true => json!(end as u64),
-                    false => json!(end),
+                *scene.pointer_mut(&pointer).unwrap() = if is_whole {
+                    json!(end as u64)
+                } else {
+                    json!(end)
                 };
                 cases.push((
                     command.clone(),

@@ -151,12 +151,13 @@ fn analysed(scene: &Scene, limits: &Limits) -> Result<Analysis, CheckError> {
     let to = |end_rad_per_s: f64| {
         let range = SpeedRange::new(0.0, end_rad_per_s.max(least_end_rad_per_s));
         let analysis = Analysis::new(&scene.swept(range)?);
-        Ok(
-            analysis.map_err(|error| match end_rad_per_s < least_end_rad_per_s {
-                true => error.due_to(key, factor),
-                false => error,
-            })?,
-        )
+        Ok(analysis.map_err(|error| {
+            if end_rad_per_s < least_end_rad_per_s {
+                error.due_to(key, factor)
+            } else {
+                error
+            }
+        })?)
     };
     if let Some(SpeedRange { to_rad_per_s, .. }) = scene.sweep() {
         return to(to_rad_per_s);

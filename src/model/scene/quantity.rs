@@ -1,7 +1,5 @@
 //! A number of a scene: name, unit, allowed and usual range, typical value.
 
-use std::borrow::Cow;
-
 use serde::Serialize;
 
 use super::RefusedValue;
@@ -144,7 +142,7 @@ impl Quantity {
             _ => "give a number in this range, in this unit",
         };
         let meant = self.question_of_unit(value);
-        let remedy = meant.map_or(Cow::Borrowed(remedy), Cow::Owned);
+        let remedy = meant.unwrap_or_else(|| remedy.to_owned());
         RefusedValue::new(key, words, allowed.trim_end(), remedy)
     }
 

@@ -1,7 +1,5 @@
 //! Errors of a scene, and the four parts of a message about a value that cannot be used.
 
-use std::borrow::Cow;
-
 use crate::page::text::{FileError, shown};
 
 /// A value of a scene, a study or an argument that cannot be used. Program, live page and Python package show
@@ -16,7 +14,7 @@ pub struct RefusedValue {
     /// Allowed values.
     pub allowed: String,
     /// Remedy for the user.
-    pub remedy: Cow<'static, str>,
+    pub remedy: Box<str>,
 }
 
 impl RefusedValue {
@@ -25,7 +23,7 @@ impl RefusedValue {
         key: impl Into<String>,
         value: impl Given,
         allowed: impl Into<String>,
-        remedy: impl Into<Cow<'static, str>>,
+        remedy: impl Into<Box<str>>,
     ) -> Self {
         RefusedValue {
             key: key.into(),

@@ -558,7 +558,7 @@ mod tests {
         ] {
             let refused = number_of(path, text).unwrap_err();
             assert_eq!(refused.allowed, either, "{text}");
-            assert_eq!(refused.remedy, "write one of these");
+            assert_eq!(&*refused.remedy, "write one of these");
         }
         let thickness = Reading {
             unit_left_out: "mm",

@@ -110,7 +110,8 @@ fn largest_around(around: &Mat<f64>, waves: &Col<f64>) -> f64 {
         let [_, slope, curvature] = derivatives(waves, angle);
         let step = -slope / curvature;
         // The largest deflection is within a spacing; where the deflection is constant the step is not a number.
-        if !((angle + step - begun).abs() <= spacing) {
+        let away = (angle + step - begun).abs();
+        if away.is_nan() || away > spacing {
             break;
         }
         angle += step;
