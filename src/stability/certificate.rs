@@ -45,7 +45,7 @@ impl Certificate {
         !self.miscounts.is_empty()
     }
 
-    /// Whether the search failed, so that its bands decide nothing, see [`has_failed`].
+    /// Whether the search failed, so that its bands decide nothing.
     pub fn has_failed(&self) -> bool {
         let contradicted = self.violations_rad_per_s.len() + self.mismatches.len();
         has_failed(contradicted, self.speeds_checked)

@@ -136,7 +136,7 @@ pub fn rad_per_s(rpm: f64) -> f64 {
     rpm * std::f64::consts::PI / 30.0
 }
 
-/// Rotation speed in revolutions per minute from rad/s, rounded to [`DIGITS`], so that a typed speed comes back as typed.
+/// Rotation speed in revolutions per minute from rad/s, rounded to 15 digits, so that a typed speed comes back as typed.
 pub fn rpm(rad_per_s: f64) -> f64 {
     let rpm = rad_per_s * 30.0 / std::f64::consts::PI;
     if rpm == 0.0 || !rpm.is_finite() {
