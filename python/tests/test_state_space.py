@@ -50,7 +50,8 @@ def test_a_film_and_a_controller_are_states(damped: sf.Scene) -> None:
     film = {"guides[0].damping_n_s_per_m": 100, "guides[0].film": {"lag_s": 1e-3}}
     saw = damped.replace({**film, "guides[0].controller": controller})
     m = saw.matrices(basis=(12, 6))
-    assert len(m.stiffness) == len(damped.matrices(basis=(12, 6)).stiffness) + 2
+    # The film has one for the heave and one for each tilt of the pad.
+    assert len(m.stiffness) == len(damped.matrices(basis=(12, 6)).stiffness) + 4
     found = saw.modes(rpm=1200)
     space = saw.matrices().state_space(1200, inputs=RIM, outputs=RIM, to_hz=60)
     values = np.linalg.eigvals(space.A)
