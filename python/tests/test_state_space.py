@@ -55,7 +55,8 @@ def test_a_film_and_a_controller_are_states(damped: sf.Scene) -> None:
     found = saw.modes(rpm=1200)
     space = saw.matrices().state_space(1200, inputs=RIM, outputs=RIM, to_hz=60)
     values = np.linalg.eigvals(space.A)
-    hz = np.sort(values[values.imag > 0].imag) / (2 * np.pi)
+    # The decays of the film are real and equal nearly to rounding.
+    hz = np.sort(values[values.imag > 1e-3 * np.abs(values)].imag) / (2 * np.pi)
     expected = [mode.frequency_hz for mode in found if 0 < mode.frequency_hz <= 60]
     assert np.allclose(hz[hz <= 60], np.sort(expected), rtol=1e-6)
 

@@ -227,12 +227,12 @@ mod tests {
             (
                 "blade.outer_diameter_m",
                 json!(1e25),
-                "Outer diameter must be between 0.01 and 10000 mm",
+                "Outer diameter is too large; usual: 40 to 5000 mm",
             ),
             (
                 "blade.thickness_m",
                 json!(-1.0),
-                "Thickness must be between 1e-6 and 1000 mm",
+                "Thickness must be above 0 mm; usual: 0.1 to 40 mm",
             ),
             ("blade.teeth", json!(2.5), "Teeth must be a whole number"),
             (

@@ -126,7 +126,8 @@ impl Quantity {
 
     /// The error of a number outside the allowed range, given as `words`.
     pub(super) fn refused(&self, key: &str, value: f64, words: impl super::Given) -> RefusedValue {
-        let allowed = if self.allowed.is_far() {
+        let is_narrower = self.usual != (self.allowed.from, self.allowed.to);
+        let allowed = if self.allowed.is_far() && is_narrower {
             format!(
                 "{}, {}",
                 self.allowed.end_in_words(value),

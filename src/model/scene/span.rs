@@ -17,7 +17,9 @@ pub struct Span {
     pub is_open_above: bool,
 }
 
-/// Ends only prevent overflow if their ratio, or their difference if the lower one is not positive, exceeds this.
+/// Ends tell a user nothing if their ratio exceeds this.
+const FAR_RATIO: f64 = 1e5;
+/// The same for the difference of ends if the lower one is not positive.
 const FAR: f64 = 1e9;
 
 impl Span {
@@ -63,10 +65,10 @@ impl Span {
         }
     }
 
-    /// Whether the ends are so far from each other that they only prevent overflow.
+    /// Whether the ends are so far from each other that the usual range tells more.
     pub(crate) fn is_far(&self) -> bool {
         if self.from > 0.0 {
-            self.to / self.from >= FAR
+            self.to / self.from >= FAR_RATIO
         } else {
             self.to - self.from >= FAR
         }
