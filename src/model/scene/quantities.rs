@@ -12,8 +12,8 @@ const LENGTH_OR_NONE: Span = Span::closed(0.0, 10.0);
 /// Distance from the axis on a blade of the largest diameter.
 const RADIUS: Span = Span::closed(1e-5, 5.0);
 const RADIUS_OR_NONE: Span = Span::closed(0.0, 5.0);
-/// Thickness: from a few atoms, which a membrane without stiffness in bending approximates, to that of a millstone.
-const THICKNESS: Span = Span::closed(1e-9, 1.0);
+/// Thickness: from that of an atom, which a membrane without stiffness in bending approximates, to that of a millstone.
+const THICKNESS: Span = Span::closed(1e-10, 1.0);
 /// Stiffness of a contact. A steel block of 50 mm by 50 mm by 50 mm has EA/h = 1e10 N/m; a body that supports it has less.
 const STIFFNESS: Span = Span::closed(0.0, 1e10);
 /// Damping of a contact. At 1000 rad/s the largest one holds the blade as firmly as the largest stiffness.
