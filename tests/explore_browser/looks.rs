@@ -195,8 +195,8 @@ fn nothing_jumps_while_a_saw_is_changed_and_looked_at() {
         page.wait("[...document.querySelectorAll('.influence .words')].some((words) => words.textContent !== '')")
             .await;
         assert_eq!(page.value(PLACES).await, before, "influence");
-        // As far as the pad stays on the blade, beside which a warning would appear.
-        drag(&page, PAD, 12, (2, 2)).await;
+        // Around the blade, beside which a pad is warned of.
+        drag(&page, PAD, 12, (2, -2)).await;
         page.wait("sawflutter.latencies.draft.length > 0").await;
         assert_eq!(page.value(PLACES).await, before, "dragging");
         let_go(&page).await;
