@@ -80,7 +80,7 @@ pub fn coupling(
 }
 
 /// Means over a patch whose centre line is at an angle, Σ weight ∫ … dψ over its circles: of φᵢ, in 1/√kg, and of xφᵢ and yφᵢ, in
-/// m/√kg, with x along the centre line from the axis of the blade and y across it. Of a point those of xφᵢ and yφᵢ are zero.
+/// m/√kg, with x along the centre line from the axis of the blade and y across it. Of a point the mean of yφᵢ is zero.
 pub fn means<'a>(
     plate: &Plate,
     angle_rad: f64,
