@@ -3,7 +3,7 @@
 use std::f64::consts::TAU;
 
 use sawflutter::model::scene::{
-    GuideArmFile, GuideControllerFile, GuideFilmFile, Scene, SceneFile, rpm,
+    GuideArmFile, GuideControllerFile, GuideFile, GuideFilmFile, Scene, SceneFile, SweepFile, rpm,
 };
 use sawflutter::stability::Analysis;
 
@@ -140,4 +140,34 @@ fn the_slowest_motion_of_a_slow_guide_is_its_own() {
     assert_eq!(slowest.im, 0.0);
     let lowest = found.modes_at_rest[0].mode.lambda.im / TAU;
     crate::common::assert_close("frequency at rest", lowest, 127.47, 1e-3);
+}
+
+/// Six equal films that lie evenly around the blade have 18 real eigenvalues near their decay, and exactly double ones: the search does not
+/// divide the speeds without end.
+#[test]
+#[cfg_attr(debug_assertions, ignore = "many eigenproblems: run it in release")]
+fn six_equal_films_are_searched_in_few_speeds() {
+    let saw = crate::common::scene("collar-400mm");
+    let mut file = saw.file().clone();
+    file.guides = (0..6)
+        .map(|k| GuideFile {
+            radius_m: 0.17,
+            angle_deg: 10.0 + 60.0 * f64::from(k),
+            radial_length_m: 0.03,
+            tangential_length_m: 0.04,
+            stiffness_n_per_m: 3e4,
+            damping_n_s_per_m: 1e4,
+            film: Some(GuideFilmFile { lag_s: 0.01 }),
+            ..GuideFile::default()
+        })
+        .collect();
+    (file.tolerance, file.operating_rpm) = (Some(0.1), None);
+    file.sweep = Some(SweepFile {
+        from_rpm: 4000.0,
+        to_rpm: 7600.0,
+    });
+    let found = Analysis::new(&saw.edited(|saw| *saw = file).unwrap()).unwrap();
+    let certificate = &found.chart.certificate;
+    assert!(!certificate.gave_up, "{certificate:?}");
+    assert!(certificate.speeds_checked < 2000, "{certificate:?}");
 }
