@@ -4,6 +4,7 @@ use faer::linalg::matmul::matmul;
 use faer::{Accum, Col, Mat, MatRef, Par, Scale, c64};
 
 use super::harmonic::Harmonic;
+use super::wave_scaling::{Block, WaveScaling};
 use crate::modes::connected_parts::connected_parts;
 
 /// Coupling matrix of the harmonics, of guides and edge loads.
@@ -110,7 +111,7 @@ impl Columns {
             count += 1;
         };
         let columns = columns.subcols(0, count);
-        let unknowns = relative.unscaled(columns);
+        let unknowns = relative.scaling.unscaled(columns);
         let rests: [_; LOOKS + 1] = rests.try_into().ok()?;
         let parts = parts(columns, harmonics).into_iter();
         Some(Columns {
@@ -214,46 +215,24 @@ fn heavier(harmonics: &[Harmonic]) -> Vec<f64> {
     blocks.flatten().collect()
 }
 
-/// F⁻¹ K F⁻ᵀ with FFᵀ = G, block by block; only few of its columns are computed.
+/// F⁻¹ K F⁻ᵀ; only few of its columns are computed.
 struct Relative<'a> {
     coupling: &'a Mat<f64>,
-    blocks: Vec<Scaled>,
-}
-
-/// One block of F: the waves at rest, each times the root of its weight.
-struct Scaled {
-    /// Index of the first unknown of the block.
-    first: usize,
-    factor: Mat<f64>,
-    inverse: Mat<f64>,
+    scaling: WaveScaling,
 }
 
 impl<'a> Relative<'a> {
     fn new(coupling: &'a Mat<f64>, harmonics: &[Harmonic]) -> Self {
-        let blocks = harmonics.iter().flat_map(|h| {
-            h.firsts().map(|first| {
-                let (radial, waves) = (h.radial(), &h.resting.vectors);
-                Scaled {
-                    first,
-                    factor: Mat::from_fn(radial, radial, |i, k| {
-                        waves[(i, k)] * h.weights[k].sqrt()
-                    }),
-                    inverse: Mat::from_fn(radial, radial, |i, k| {
-                        waves[(k, i)] / h.weights[i].sqrt()
-                    }),
-                }
-            })
-        });
         Relative {
             coupling,
-            blocks: blocks.collect(),
+            scaling: WaveScaling::new(harmonics),
         }
     }
 
     /// Diagonal of F⁻¹ K F⁻ᵀ.
     fn diagonal(&self) -> Vec<f64> {
         let mut diagonal = Vec::with_capacity(self.coupling.nrows());
-        for Scaled { first, inverse, .. } in &self.blocks {
+        for Block { first, inverse, .. } in self.scaling.blocks() {
             let (first, size) = (*first, inverse.nrows());
             let own = self.coupling.get(first..first + size, first..first + size);
             let half = inverse * own;
@@ -262,30 +241,12 @@ impl<'a> Relative<'a> {
         diagonal
     }
 
-    /// F times columns: the inverse of the scaling.
-    fn unscaled(&self, columns: MatRef<'_, f64>) -> Mat<f64> {
-        let mut unscaled = Mat::zeros(columns.nrows(), columns.ncols());
-        for Scaled { first, factor, .. } in &self.blocks {
-            let size = factor.nrows();
-            let into = unscaled.subrows_mut(*first, size);
-            let own = columns.subrows(*first, size);
-            matmul(into, Accum::Replace, factor, own, 1.0, Par::Seq);
-        }
-        unscaled
-    }
-
     /// Column `index` of F⁻¹ K F⁻ᵀ.
     fn column(&self, index: usize) -> Col<f64> {
-        let place = self.blocks.partition_point(|block| block.first <= index);
-        let Scaled { first, inverse, .. } = &self.blocks[place - 1];
+        let Block { first, inverse, .. } = self.scaling.block_of(index);
         let unit = inverse.row(index - first).transpose();
         let column = self.coupling.subcols(*first, inverse.nrows()) * unit;
-        let mut scaled = Col::zeros(column.nrows());
-        for Scaled { first, inverse, .. } in &self.blocks {
-            let own = inverse * column.subrows(*first, inverse.nrows());
-            scaled.subrows_mut(*first, inverse.nrows()).copy_from(own);
-        }
-        scaled
+        self.scaling.scaled(column.as_mat()).col(0).to_owned()
     }
 }
 

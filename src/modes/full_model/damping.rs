@@ -1,15 +1,16 @@
-//! Forces that depend on the velocity of a blade, by the structure of its full model.
+//! Inertia, and all forces on a blade without a potential, by the structure of its full model.
 
 use faer::traits::math_utils::from_f64;
 use faer::{Mat, MatRef, c64};
 use nalgebra::DMatrix;
 
-use super::coupling::{Columns, Kept};
+use super::contact_forces::ContactForces;
+use super::coupling::Columns;
 use super::elimination::Shift;
 use super::harmonic::Harmonic;
 use crate::model::plate::Plate;
 
-/// Inertia, gyroscopic forces and damping; without damping its coefficients are zero.
+/// Inertia, gyroscopic forces, damping and forces without a potential; without them its coefficients are zero.
 #[derive(Debug)]
 pub struct Damping {
     /// C_i of the material and the area on which air acts, for every harmonic; empty without damping of the
@@ -21,22 +22,32 @@ pub struct Damping {
     air_rotation_share: f64,
     /// τ of dampers proportional to the springs, such as those of a single guide: K_g + λC = (1 + τλ) K_g.
     guide_retardation_s: f64,
-    /// Dampers that are not proportional to the springs.
-    dampers: Option<Columns>,
+    /// Dampers that are not proportional to the springs, and forces without a potential, but for `states`.
+    contact: Option<ContactForces>,
+    /// The internal states of pads, whose unknowns belong to the block of no nodal diameters: index, and the elements of K_n
+    /// and of C on the diagonal. Beside the stiffness of a state in K₀ both are exact, unlike columns.
+    states: Vec<(usize, [f64; 2])>,
 }
 
 impl Damping {
-    /// The forces of a plate; `None` if there are forces without a potential, or if dampers take too many
-    /// columns.
+    /// The forces of a plate; `None` if those of contacts take too many columns.
     pub fn of(plate: &Plate, harmonics: &[Harmonic]) -> Option<Self> {
-        if plate.contact.nonconservative_stiffness().is_some() {
-            return None;
-        }
-        let of_contact = plate.contact.damping();
-        let retardation = proportion(plate.contact.stiffness(), of_contact);
-        let dampers = match (retardation, of_contact) {
-            (None, Some(dampers)) => Some(Columns::new(dampers, harmonics, Kept::Few)?),
+        let terms = &plate.contact;
+        let retardation = match terms.nonconservative_stiffness() {
+            Some(_) => None,
+            None => proportion(terms.stiffness(), terms.damping()),
+        };
+        let states = plate.states();
+        let contact = match retardation {
+            None if !terms.is_conservative() => {
+                Some(ContactForces::new(terms, states.clone(), harmonics)?)
+            }
             _ => None,
+        };
+        let on_diagonal = |state: usize| {
+            let of =
+                |matrix: Option<&Mat<f64>>| matrix.map_or(0.0, |matrix| matrix[(state, state)]);
+            [of(terms.nonconservative_stiffness()), of(terms.damping())]
         };
         let unit = |size: usize| DMatrix::identity(size, size);
         let blocks = plate.damping.iter().flat_map(|_| &plate.harmonics);
@@ -53,7 +64,8 @@ impl Damping {
             air_per_s: of_blade.map_or(0.0, |d| d.air_n_s_per_m3 / mass),
             air_rotation_share: of_blade.map_or(0.0, |d| d.air_rotation_share),
             guide_retardation_s: retardation.unwrap_or(0.0),
-            dampers,
+            contact,
+            states: states.map(|state| (state, on_diagonal(state))).collect(),
         })
     }
 
@@ -75,21 +87,33 @@ impl Damping {
             add_scaled(&mut block, turned, material);
             add_scaled(&mut block, (lambda + air_turns) * self.air_per_s, area);
         }
+        if harmonic == 0 {
+            for &(state, [stiffness, damping]) in &self.states {
+                block[(state, state)] += stiffness + lambda * damping;
+            }
+        }
         block
     }
 
-    /// The columns of springs and dampers for solves, each with its W(λ).
+    /// The columns of contacts for solves, each with its W(λ).
     pub fn weighted<'a, T: Shift>(
         &'a self,
         springs: &'a Columns,
         lambda: T,
-    ) -> Vec<(MatRef<'a, f64>, T)> {
-        let one = from_f64::<T>(1.0);
-        let retarded = lambda * from_f64::<T>(self.guide_retardation_s);
-        let springs = (springs.few(), one + retarded);
-        let dampers = self.dampers.iter().map(|columns| (columns.few(), lambda));
-        [springs].into_iter().chain(dampers).collect()
+    ) -> Vec<(MatRef<'a, f64>, Mat<T>)> {
+        let retarded = from_f64::<T>(1.0) + lambda * from_f64::<T>(self.guide_retardation_s);
+        let springs = springs.few();
+        let springs = (springs, scaled_unit(springs.ncols(), retarded));
+        let contact = self.contact.iter().map(|forces| forces.weighted(lambda));
+        [springs].into_iter().chain(contact).collect()
     }
+}
+
+/// A number times the unit matrix.
+pub fn scaled_unit<T: Shift>(order: usize, factor: T) -> Mat<T> {
+    let mut unit = Mat::zeros(order, order);
+    unit.diagonal_mut().fill(factor);
+    unit
 }
 
 /// Retardation τ, in s, if C = τK; `None` otherwise.

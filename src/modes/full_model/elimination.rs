@@ -1,7 +1,7 @@
 //! L(λ) with its blocks eliminated: its solves, and the argument of its determinant.
 //!
-//! L = A + PWPᵀ with A block diagonal in the number of nodal diameters and W diagonal, and by the
-//! Sherman–Morrison–Woodbury identity
+//! L = A + PWPᵀ with A block diagonal in the number of nodal diameters, and by the Sherman–Morrison–Woodbury
+//! identity
 //!
 //! L⁻¹ = A⁻¹ − A⁻¹P S⁻¹ W PᵀA⁻¹,  det L = det A · det S,  S = 1 + W PᵀA⁻¹P.
 //!
@@ -16,7 +16,7 @@ use faer::linalg::matmul::matmul;
 use faer::linalg::solvers::{PartialPivLu, Solve};
 use faer::traits::ComplexField;
 use faer::traits::math_utils::from_f64;
-use faer::{Accum, Mat, MatRef, Par, c64};
+use faer::{Accum, Mat, MatRef, Par, c64, unzip, zip};
 use nalgebra::DMatrix;
 
 use super::harmonic::Harmonic;
@@ -114,8 +114,8 @@ pub struct Elimination<T: ComplexField> {
     blocks: Vec<PairInverse<T>>,
     /// P, N × r.
     columns: Mat<T>,
-    /// The diagonal of W.
-    weights: Vec<T>,
+    /// W, r × r.
+    weights: Mat<T>,
     /// A⁻¹P.
     solved: Mat<T>,
     /// Factors of S.
@@ -123,27 +123,29 @@ pub struct Elimination<T: ComplexField> {
 }
 
 impl<T: Shift> Elimination<T> {
-    /// Factorizes L(λ) from its inverted blocks, and its columns with their weights. `None` if a value is not
-    /// finite.
-    pub(super) fn new(blocks: Vec<PairInverse<T>>, parts: &[(MatRef<'_, f64>, T)]) -> Option<Self> {
+    /// Factorizes L(λ) from its inverted blocks, and its columns with the part of W that belongs to them. `None` if a
+    /// value is not finite.
+    pub(super) fn new(
+        blocks: Vec<PairInverse<T>>,
+        parts: &[(MatRef<'_, f64>, Mat<T>)],
+    ) -> Option<Self> {
         let (first, _) = parts.first()?;
         let count = parts.iter().map(|(columns, _)| columns.ncols()).sum();
         let mut columns = Mat::zeros(first.nrows(), count);
-        let mut weights = Vec::with_capacity(count);
+        let mut weights = Mat::zeros(count, count);
+        let mut at = 0;
         for (own, weight) in parts {
-            for column in own.col_iter() {
-                for (i, value) in column.iter().enumerate() {
-                    columns[(i, weights.len())] = from_f64(*value);
-                }
-                weights.push(*weight);
-            }
+            let size = own.ncols();
+            let into = columns.subcols_mut(at, size);
+            zip!(into, own).for_each(|unzip!(into, own)| *into = from_f64(*own));
+            weights.submatrix_mut(at, at, size, size).copy_from(weight);
+            at += size;
         }
         let mut solved = Mat::zeros(columns.nrows(), count);
         for block in &blocks {
             block.add_solved(columns.as_ref(), false, &mut solved);
         }
-        let mut core = columns.transpose() * &solved;
-        weigh(&weights, &mut core);
+        let mut core = &weights * (columns.transpose() * &solved);
         (0..count).for_each(|i| core[(i, i)] += from_f64::<T>(1.0));
         core.is_all_finite().then(|| Elimination {
             core: core.partial_piv_lu(),
@@ -162,8 +164,7 @@ impl<T: Shift> Elimination<T> {
     /// L⁻¹ times loads.
     pub fn solve(&self, loads: MatRef<'_, T>) -> Mat<T> {
         let mut found = self.blocks_solved(loads, false);
-        let mut shares = self.columns.transpose() * &found;
-        weigh(&self.weights, &mut shares);
+        let shares = &self.weights * (self.columns.transpose() * &found);
         found -= &self.solved * self.core.solve(shares);
         found
     }
@@ -171,9 +172,8 @@ impl<T: Shift> Elimination<T> {
     /// L⁻ᵀ times loads.
     pub fn solve_transposed(&self, loads: MatRef<'_, T>) -> Mat<T> {
         let found = self.blocks_solved(loads, true);
-        let mut shares = self.core.solve_transpose(self.columns.transpose() * &found);
-        weigh(&self.weights, &mut shares);
-        let carried = &self.columns * shares;
+        let shares = self.core.solve_transpose(self.columns.transpose() * &found);
+        let carried = &self.columns * (self.weights.transpose() * shares);
         found - self.blocks_solved(carried.as_ref(), true)
     }
 
@@ -200,15 +200,6 @@ impl<T: Shift> Elimination<T> {
     }
 }
 
-/// Multiplies the rows of a matrix by W.
-fn weigh<T: Shift>(weights: &[T], matrix: &mut Mat<T>) {
-    for column in matrix.col_iter_mut() {
-        for (value, weight) in column.iter_mut().zip(weights) {
-            *value *= *weight;
-        }
-    }
-}
-
 /// Whether a permutation is odd.
 fn is_odd(permutation: &[usize]) -> bool {
     let mut seen = vec![false; permutation.len()];
@@ -230,7 +221,7 @@ fn is_odd(permutation: &[usize]) -> bool {
 mod tests {
     use super::*;
     use crate::model::plate::{Plate, Resolution};
-    use crate::model::scene::{DampingFile, Scene, rad_per_s};
+    use crate::model::scene::{DampingFile, GuideControllerFile, GuideFilmFile, Scene, rad_per_s};
     use crate::model::system::{GyroscopicSystem, dynamic_stiffness};
     use crate::modes::FullModel;
 
@@ -240,9 +231,10 @@ mod tests {
     };
 
     /// Plates with one point guide and with two, for which columns are exact, without damping and with
-    /// dampers proportional to the springs or not, in air and with material damping.
+    /// dampers proportional to the springs or not, in air and with material damping, and with a film and a
+    /// controller.
     fn plates() -> Vec<Plate> {
-        let points = |count: usize, damping: f64| {
+        let points = |count: usize, damping: f64, has_laws: bool| {
             let scene = Scene::paper().edited(|saw| {
                 saw.guides = vec![saw.guides[0].clone(); count];
                 for (k, guide) in saw.guides.iter_mut().enumerate() {
@@ -250,6 +242,11 @@ mod tests {
                     (guide.radial_length_m, guide.tangential_length_m) = (0.0, 0.0);
                 }
                 saw.guides[0].damping_n_s_per_m = damping;
+                saw.guides[0].film = has_laws.then_some(GuideFilmFile { lag_s: 1e-3 });
+                saw.guides[1 % count].controller = has_laws.then(|| GuideControllerFile {
+                    numerator: vec![2e3, 3e6],
+                    denominator: vec![1.0, 40.0, 9e4],
+                });
                 saw.damping = (damping > 0.0).then_some(DampingFile {
                     material_retardation_time_s: 1e-6,
                     air_n_s_per_m3: 0.5,
@@ -259,9 +256,15 @@ mod tests {
             });
             Plate::new(&scene.unwrap(), RESOLUTION)
         };
-        [(1, 0.0), (2, 0.0), (1, 3.0), (2, 3.0)]
-            .map(|(n, c)| points(n, c))
-            .into()
+        [
+            (1, 0.0, false),
+            (2, 0.0, false),
+            (1, 3.0, false),
+            (2, 3.0, false),
+            (2, 3.0, true),
+        ]
+        .map(|(n, c, has_laws)| points(n, c, has_laws))
+        .into()
     }
 
     /// The whole matrix L(λ).

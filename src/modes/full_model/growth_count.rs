@@ -56,11 +56,12 @@ impl FullModel {
 mod tests {
     use super::*;
     use crate::model::plate::{Plate, Resolution};
-    use crate::model::scene::{DampingFile, Scene, rad_per_s};
+    use crate::model::scene::{DampingFile, GuideControllerFile, GuideFilmFile, Scene, rad_per_s};
     use crate::model::system::GyroscopicSystem;
     use crate::modes::companion_eigenpairs;
 
-    /// A damped saw on one guide, or on two with different ratios of damping to stiffness.
+    /// A damped saw on one guide, on two with different ratios of damping to stiffness, or on three of which one has a film
+    /// and another a controller.
     fn damped(guides: usize) -> Plate {
         let scene = Scene::paper().edited(|saw| {
             saw.guides = vec![saw.guides[0].clone(); guides];
@@ -69,6 +70,14 @@ mod tests {
             // Two pads need more columns than a small basis permits.
             for guide in saw.guides.iter_mut().filter(|_| guides > 1) {
                 (guide.radial_length_m, guide.tangential_length_m) = (0.0, 0.0);
+            }
+            if guides == 3 {
+                saw.guides[2].angle_deg += 160.0;
+                saw.guides[0].film = Some(GuideFilmFile { lag_s: 3e-3 });
+                saw.guides[1].controller = Some(GuideControllerFile {
+                    numerator: vec![1e6],
+                    denominator: vec![1.0, 0.0],
+                });
             }
             saw.damping = Some(DampingFile {
                 material_retardation_time_s: 1e-6,
@@ -90,7 +99,7 @@ mod tests {
     fn eigenvalues_that_a_list_lacks_or_invents_are_counted() {
         let mut growing = 0;
         let speeds = [800.0, 1540.0, 1700.0, 2110.0, 2262.0, 2600.0, 2900.0];
-        for (guides, rpm) in [1, 2]
+        for (guides, rpm) in [1, 2, 3]
             .into_iter()
             .flat_map(|guides| speeds.map(|rpm| (guides, rpm)))
         {
@@ -106,7 +115,8 @@ mod tests {
             for k in 0..values.len().min(8) {
                 let value = values[k];
                 // The path does not enclose eigenvalues outside of its window or near zero.
-                if value.im > window[1] || value.norm() < NEXT_TO_ZERO * window[1] {
+                let is_beside = value.im > window[1] || value.re.abs() > window[0];
+                if is_beside || value.norm() < NEXT_TO_ZERO * window[1] {
                     continue;
                 }
                 let weight = if value.im == 0.0 { 1 } else { 2 };

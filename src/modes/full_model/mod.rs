@@ -8,10 +8,11 @@
 //!
 //! is therefore block diagonal, with B_n(Ω) + μ² + ηK_b μ + c(λ + insΩ), μ = λ + inΩ, for the wave (c −
 //! is)/√2 of cosines c and sines s, and −n for the opposite one; B_n = K_b + K_m + Ω²K_σ. Guides add PWPᵀ
-//! with few columns P, where W(λ) is 1 for springs and λ for dampers. A solve, a determinant and an inertia
+//! with few columns P, where W(λ) is 1 for springs, and W_n + λW_c for dampers, films and controllers. A solve, a determinant and an inertia
 //! therefore cost O(NJ² + Nr²) for J functions of each harmonic and r columns, in place of O(N³). Loads at
 //! the rim couple all waves: then only the inertia is computed, by a factorization of the whole matrix.
 
+mod contact_forces;
 mod coupling;
 mod damping;
 mod elimination;
@@ -19,6 +20,7 @@ mod growth_count;
 mod harmonic;
 mod inertia;
 mod product;
+mod wave_scaling;
 
 use faer::{Mat, c64};
 
@@ -26,7 +28,7 @@ pub use self::elimination::Elimination;
 pub use self::inertia::AtSpeed;
 
 use self::coupling::{Columns, Coupling, Kept, in_waves};
-use self::damping::Damping;
+use self::damping::{Damping, scaled_unit};
 use self::elimination::{PairInverse, Shift};
 use self::harmonic::Harmonic;
 use super::scale::frequency_scale;
@@ -37,8 +39,8 @@ use crate::model::plate::{HarmonicBlock, Plate};
 pub struct FullModel {
     harmonics: Vec<Harmonic>,
     coupling: Coupling,
-    /// Inertia, gyroscopic forces and damping; `None` if they have no such structure, because of forces
-    /// without a potential, or because dampers need too many columns.
+    /// Inertia, gyroscopic forces, damping and forces without a potential; `None` if these need too many
+    /// columns.
     damping: Option<Damping>,
 }
 
@@ -56,11 +58,13 @@ impl FullModel {
 
     fn with_columns(plate: &Plate, kept: Kept) -> Self {
         let scale = frequency_scale(plate);
+        let mut blocks = plate.harmonics.clone();
+        let beside_states = stiffness_of_states(plate, &mut blocks[0]);
+        let guides = beside_states.as_ref().or(plate.contact.stiffness());
         let harmonic =
             |block: &HarmonicBlock| Harmonic::new(block, plate.offset(block.diameters), scale);
-        let harmonics: Vec<Harmonic> = plate.harmonics.iter().map(harmonic).collect();
+        let harmonics: Vec<Harmonic> = blocks.iter().map(harmonic).collect();
         let order = plate.degrees_of_freedom();
-        let guides = plate.contact.stiffness();
         let columns = match (&plate.edge_stiffness, guides) {
             (None, Some(guides)) => Columns::new(guides, &harmonics, kept),
             (None, None) => Columns::new(&Mat::zeros(order, order), &harmonics, kept),
@@ -91,7 +95,7 @@ impl FullModel {
         matches!(self.coupling, Coupling::Dense(_))
     }
 
-    /// Whether L(λ) can be eliminated: no loads at the rim, no forces without a potential.
+    /// Whether L(λ) can be eliminated: no loads at the rim, and few columns.
     pub fn is_structured(&self) -> bool {
         !self.is_dense() && self.damping.is_some()
     }
@@ -155,7 +159,22 @@ impl FullModel {
             (first, root) if first == i => root,
             _ => 0.0,
         });
-        let parts = [(springs.unknowns.as_ref(), 1.0), (holding.as_ref(), -1.0)];
+        let parts = [(springs.unknowns.as_ref(), 1.0), (holding.as_ref(), -1.0)]
+            .map(|(columns, weight)| (columns, scaled_unit(columns.ncols(), weight)));
         Elimination::new(blocks?, &parts)
     }
+}
+
+/// Moves the stiffness of the internal states of pads from K_g, which couples them with nothing, to their block: it is far above that
+/// of the waves. Returns the rest of K_g; `None` without states.
+fn stiffness_of_states(plate: &Plate, block: &mut HarmonicBlock) -> Option<Mat<f64>> {
+    let mut rest = plate
+        .contact
+        .stiffness()
+        .filter(|_| !plate.states().is_empty())?
+        .clone();
+    for state in plate.states() {
+        block.bending[(state, state)] += std::mem::take(&mut rest[(state, state)]);
+    }
+    Some(rest)
 }
