@@ -170,6 +170,10 @@ fn six_equal_films_are_searched_in_few_speeds() {
     let certificate = &found.chart.certificate;
     assert!(!certificate.gave_up, "{certificate:?}");
     assert!(certificate.speeds_checked < 2000, "{certificate:?}");
+    assert!(
+        certificate.violations_rad_per_s.is_empty(),
+        "{certificate:?}"
+    );
     // Counts on the full model, which know no curves, find no other growing mode.
     assert!(certificate.full_basis_counts >= 15, "{certificate:?}");
     assert!(certificate.miscounts.is_empty(), "{certificate:?}");

@@ -112,6 +112,19 @@ fn extended((_, mut curve): Tip, value: Sloped, speed_rad_per_s: f64) -> Tip {
     (value, curve)
 }
 
+/// A curve that ends within a step, up to the end of the step, at which other curves begin: its eigenvalue is there equal to one
+/// of theirs, up to rounding.
+fn closed((last, curve): Tip, found: &[Sloped], speed_rad_per_s: f64) -> Tip {
+    let nearest = smallest(found, |(z, _)| (z - last.0).norm());
+    match nearest {
+        Some((z, slope)) => {
+            let value = (c64::new(z.re, last.0.im), *slope);
+            extended((last, curve), value, speed_rad_per_s)
+        }
+        None => (last, curve),
+    }
+}
+
 /// Continues curves by the eigenvalues of one group over a piece.
 struct Follower<'a> {
     /// Eigenvalues with Im λ ≥ 0 at a speed.
@@ -147,8 +160,10 @@ impl Follower<'_> {
         let matched = matched(&tips, &found, b - a);
         let is_settled = matched.is_none() && are_alike(&tips, &found);
         if is_settled || b - a <= self.least_rad_per_s {
+            let at_end = found.clone();
             let (kept, lost) = linked(tips, found, b);
-            self.ended.extend(lost.into_iter().map(|(_, curve)| curve));
+            let ended = lost.into_iter().map(|tip| closed(tip, &at_end, b));
+            self.ended.extend(ended.map(|(_, curve)| curve));
             return kept;
         }
         match matched {
