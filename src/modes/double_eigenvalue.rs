@@ -45,7 +45,7 @@ const STEPS: usize = 12;
 const TOLERANCE: f64 = 1e-9;
 impl DoubleEigenvalue {
     /// The coalescence next to an expected one. That of waves λ = iω or of real λ is at another λ of this kind. `None` if the
-    /// iteration does not converge.
+    /// iteration does not converge, or leaves the speeds of the family.
     pub fn next_to(family: &impl Family, speed_rad_per_s: f64, expected: c64) -> Option<Self> {
         let (mut speed, mut lambda) = (speed_rad_per_s, expected);
         let [mut right, mut left] = vectors(family, speed, lambda)?;
@@ -84,7 +84,7 @@ impl DoubleEigenvalue {
 
 /// The right and the left vector of the eigenvalue nearest to λ.
 fn vectors(family: &impl Family, speed: f64, lambda: c64) -> Option<[Col<c64>; 2]> {
-    let at = family.at(speed);
+    let at = family.at(speed)?;
     let [value, by_root] = at.by_root(lambda);
     let found = nearest(&at, lambda, [&value, &by_root], None);
     found.iter().all(Col::is_all_finite).then_some(found)
@@ -104,7 +104,7 @@ struct Jet {
 
 impl Jet {
     fn new(family: &impl Family, speed: f64, lambda: c64, [c, b]: [&Col<c64>; 2]) -> Option<Self> {
-        let at = family.at(speed);
+        let at = family.at(speed)?;
         let [dynamic, by_root, twice_by_root, thrice_by_root] = &at.by_root(lambda);
         let [by_speed, by_both] = &at.by_speed(lambda);
         let bordered = Bordered::new(dynamic, c, b);

@@ -1,7 +1,8 @@
 //! Errors of eigenproblems.
 
 use crate::model::linalg::LinalgError;
-use crate::model::scene::rpm;
+use crate::model::scene::{SpeedRange, rpm};
+use crate::page::text::shown;
 
 /// Reason for which a spectrum could not be computed.
 #[derive(Debug, thiserror::Error)]
@@ -52,6 +53,17 @@ pub enum SpectrumError {
         /// Rotation speed.
         rpm: f64,
     },
+    /// The reduced model ends before the speed.
+    #[error(
+        "the reduced model of the saw has no modes at {} rpm: it reaches from {} to {} rpm; let `sweep` include the speed",
+        shown(*rpm), shown(range_rpm[0]), shown(range_rpm[1])
+    )]
+    BesideModel {
+        /// Rotation speed.
+        rpm: f64,
+        /// First and last speed of the model.
+        range_rpm: [f64; 2],
+    },
     /// The computation was cancelled, see [`Cancellation`](super::Cancellation).
     #[error("the computation was cancelled")]
     Cancelled,
@@ -64,6 +76,13 @@ impl SpectrumError {
         move |error| match error {
             LinalgError::NotFinite { order } => SpectrumError::NotFinite { order, rpm },
             error => SpectrumError::Decomposition { rpm, error },
+        }
+    }
+
+    pub(super) fn beside_model(speed_rad_per_s: f64, range: SpeedRange) -> Self {
+        SpectrumError::BesideModel {
+            rpm: rpm(speed_rad_per_s),
+            range_rpm: range.ends().map(rpm),
         }
     }
 

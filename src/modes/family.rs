@@ -12,8 +12,8 @@ pub trait Family {
     where
         Self: 'a;
 
-    /// The matrices at a speed.
-    fn at(&self, speed_rad_per_s: f64) -> Self::At<'_>;
+    /// The matrices at a speed; `None` if the family does not reach it.
+    fn at(&self, speed_rad_per_s: f64) -> Option<Self::At<'_>>;
 }
 
 /// Matrices L(λ) at a speed.
@@ -42,13 +42,13 @@ pub struct SystemAt<'a> {
 impl Family for GyroscopicSystem {
     type At<'a> = SystemAt<'a>;
 
-    fn at(&self, speed_rad_per_s: f64) -> SystemAt<'_> {
-        SystemAt {
+    fn at(&self, speed_rad_per_s: f64) -> Option<SystemAt<'_>> {
+        Some(SystemAt {
             system: self,
             speed_rad_per_s,
             stiffness: self.stiffness_at(speed_rad_per_s),
             velocity: self.velocity_at(speed_rad_per_s),
-        }
+        })
     }
 }
 

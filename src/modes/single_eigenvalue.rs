@@ -17,9 +17,10 @@ const FIRST_ITERATIONS: usize = 4;
 /// Distance of the shift from λ, relative and in units of the family, so that L is not exactly singular.
 const BESIDE: f64 = 1e-9;
 
-/// The eigenvalue nearest to an expected one, in 1/s, and dλ/dΩ. A real one stays real. `None` if the iteration does not converge.
+/// The eigenvalue nearest to an expected one, in 1/s, and dλ/dΩ. A real one stays real. `None` if the iteration does not converge,
+/// or the family does not reach the speed.
 pub fn next_to(family: &impl Family, speed_rad_per_s: f64, expected: c64) -> Option<(c64, c64)> {
-    let at = family.at(speed_rad_per_s);
+    let at = family.at(speed_rad_per_s)?;
     let mut lambda = expected;
     let mut vectors = None;
     for _ in 0..STEPS {

@@ -23,7 +23,7 @@ use super::search_result::StabilityChart;
 use super::undamped::Depth;
 use super::undamped::RootLoci;
 use super::verdict::{Evidence, StabilityState, Verdict, flutter_onsets};
-use crate::model::plate::{Resolution, StraightEdgeReading};
+use crate::model::plate::{LightGapError, Resolution, StraightEdgeReading};
 use crate::model::scene::{Accuracy, Scene, SceneError, SpeedRange, rad_per_s, rpm};
 use crate::modes::branches::CampbellError;
 use crate::modes::{DescribedMode, SpectralModel, SpectrumError, Strategy};
@@ -107,7 +107,10 @@ fn straight_edge(scene: &Scene) -> Result<Option<StraightEdgeReading>, AnalysisE
         let edge = membrane.straight_edge.as_ref()?;
         Some(StraightEdgeReading::new(edge, &membrane.roll_tension))
     });
-    Ok(reading.transpose().map_err(SceneError::Value)?)
+    reading.transpose().map_err(|error| match error {
+        LightGapError::Measured(refused) => SceneError::Value(refused).into(),
+        LightGapError::Buckling(error) => SpectrumError::at(0.0)(error).into(),
+    })
 }
 
 impl Analysis {

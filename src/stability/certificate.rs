@@ -47,8 +47,12 @@ impl Certificate {
 
     /// Whether the search failed, so that its bands decide nothing.
     pub fn has_failed(&self) -> bool {
-        let contradicted = self.violations_rad_per_s.len() + self.mismatches.len();
-        has_failed(contradicted, self.speeds_checked)
+        has_failed(self.contradicted(), self.speeds_checked)
+    }
+
+    /// Number of speeds at which eigenvalues contradict the modes or the bands.
+    pub(crate) fn contradicted(&self) -> usize {
+        self.violations_rad_per_s.len() + self.mismatches.len()
     }
 
     /// Whether no check found a contradiction and the search was completed.

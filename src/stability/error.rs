@@ -20,6 +20,16 @@ pub enum AnalysisError {
     /// The chart exceeds the allowed memory.
     #[error(transparent)]
     Campbell(CampbellError),
+    /// The bands that the search found decide nothing.
+    #[error(
+        "the search for bands failed: its bands contradict the eigenvalues at {contradicted} of {speeds} speeds, so that flutter speed and state are unknown"
+    )]
+    SearchFailed {
+        /// Number of speeds at which the bands contradict the eigenvalues.
+        contradicted: usize,
+        /// Number of speeds compared.
+        speeds: usize,
+    },
     /// The blade would yield long before the end of the sweep.
     #[error(
         "{key} must be at most {limit_rpm:.0} (you gave {}): beyond that the rim would be stretched by more than 10 %, which exceeds the elastic limit of any blade; give a lower speed, or check diameter, modulus and density", shown(*.to_rpm)

@@ -136,8 +136,9 @@ impl Analysis {
         modes_at_rad_per_s: f64,
     ) -> Result<Vec<Sensitivity>, SensitivityError> {
         let scene = &self.scene;
-        let found = self.model.modes(modes_at_rad_per_s)?;
-        let modes = self.model.describe(modes_at_rad_per_s, found);
+        let beside = self.model.for_speed_beside(modes_at_rad_per_s)?;
+        let model = beside.as_ref().unwrap_or(&self.model);
+        let modes = model.describe(modes_at_rad_per_s, model.modes(modes_at_rad_per_s)?);
         let mergings: Vec<Option<Merging>> = self
             .chart
             .instabilities
@@ -156,7 +157,7 @@ impl Analysis {
             let eigenvalues: Vec<c64> = modes
                 .iter()
                 .map(|m| {
-                    let component = &self.model.components[m.mode.component];
+                    let component = &model.components[m.mode.component];
                     let x = component.coordinates(&m.shape);
                     let change = &changes[m.mode.component];
                     derivative::with_change(

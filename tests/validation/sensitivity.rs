@@ -230,6 +230,55 @@ fn the_flutter_speed_of_a_damped_saw_moves_as_reported() {
     assert!(off < 1e-2 * difference.abs(), "{told} {difference}");
 }
 
+/// Derivatives at an operating speed below and above the sweep, where the reduced models of the sweep end. Reference: differences of all
+/// dense eigenvalues at that speed.
+#[test]
+fn eigenvalues_beside_the_sweep_move_as_at_their_own_speed() {
+    for operating_rpm in [300.0, 1000.0] {
+        let scene = Scene::paper().edited(|saw| {
+            saw.accuracy = Accuracy::Draft;
+            saw.operating_rpm = Some(operating_rpm);
+            let sweep = saw.sweep.as_mut().unwrap();
+            (sweep.from_rpm, sweep.to_rpm) = (600.0, 700.0);
+        });
+        let scene = scene.unwrap();
+        let analysis = Analysis::new(&scene).unwrap();
+        let frequencies_hz = |scene: &Scene| {
+            let plate = Plate::new(scene, analysis.model.plate.resolution);
+            let range = SpeedRange::new(0.0, 1.0);
+            let model = SpectralModel::new(plate, range, Strategy::Dense).unwrap();
+            let modes = model.full_modes(rad_per_s(operating_rpm)).unwrap();
+            let mut found: Vec<f64> = modes.iter().map(|mode| mode.lambda.im / TAU).collect();
+            found.sort_by(f64::total_cmp);
+            found
+        };
+        let path = "guides[0].radius_m";
+        let share = 0.01;
+        let [low, high] = [-share, share].map(|s| frequencies_hz(&moved(&scene, path, s)));
+        let found = Sensitivity::all(&analysis).unwrap();
+        let told = found.iter().find(|own| own.parameter == path).unwrap();
+        assert!(told.frequency_hz.len() >= 8, "{:?}", told.frequency_hz);
+        for (k, told) in told.frequency_hz.iter().enumerate() {
+            let difference = (high[k] - low[k]) / (2.0 * share);
+            let off = (told - difference).abs();
+            assert!(off < 1e-5 * high[k], "{k}: {told} {difference}");
+        }
+    }
+}
+
+/// The modes of an analysis end with its sweep: beside it they are refused, and are not those of its end.
+#[test]
+fn modes_beside_the_sweep_are_refused() {
+    let scene = Scene::paper().edited(|saw| {
+        saw.accuracy = Accuracy::Draft;
+        saw.sweep.as_mut().unwrap().to_rpm = 700.0;
+    });
+    let model = Analysis::new(&scene.unwrap()).unwrap().model;
+    assert!(model.modes(rad_per_s(700.0)).is_ok());
+    let refused = model.modes(rad_per_s(800.0)).unwrap_err().to_string();
+    assert!(refused.contains("800 rpm: it reaches from"), "{refused}");
+}
+
 /// Compares every sensitivity with the difference of two analyses; returns the number of bands.
 fn assert_central_differences(scene: &Scene) -> usize {
     let at = rad_per_s(1800.0);

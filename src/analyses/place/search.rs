@@ -240,3 +240,69 @@ pub fn cheapest(tried: &[Tried]) -> Option<Tried> {
     let cheapest = tried.iter().min_by(|x, y| x.cost.total_cmp(&y.cost));
     cheapest.cloned()
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::analyses::place::{Demands, Tolerances};
+    use crate::model::plate::Resolution;
+    use crate::model::scene::{Accuracy, Scene, SceneError, SpeedRange};
+    use crate::stability::InstabilityKind;
+
+    fn question() -> Question {
+        Question {
+            demands: Demands::default(),
+            range: SpeedRange::between_rpm(0.0, 2500.0),
+            resolution: Resolution::of(Accuracy::Draft),
+            tolerances: Tolerances::USUAL,
+        }
+    }
+
+    /// A cancelled saw has no result and did not fail; one that the analysis refuses failed, with the reason.
+    #[test]
+    fn a_cancelled_saw_is_not_counted_as_failed() {
+        let scene = Scene::paper();
+        let freed = [Freed::with_usual_bounds(&scene, "guides[0].radius_m").unwrap()];
+        let search = Search::new(scene.file(), &freed, question());
+        let cancellation = Cancellation::default();
+        cancellation.cancel();
+        let found = cancellation.watched(|| search.computed(&[0.5]).is_some());
+        assert!(!found.unwrap());
+        let Tally { saws, failed, .. } = search.tally();
+        assert_eq!((saws, failed), (0, 0));
+        assert!(search.computed(&[0.5]).is_some());
+        assert_eq!((search.tally().saws, search.tally().failed), (1, 0));
+        let too_fast = Question {
+            range: SpeedRange::between_rpm(0.0, 1e6),
+            ..question()
+        };
+        let search = Search::new(scene.file(), &freed, too_fast);
+        assert!(search.computed(&[0.5]).is_none());
+        assert_eq!((search.tally().saws, search.tally().failed), (1, 1));
+    }
+
+    /// The deviation at an operating speed within a band of flutter: a band counts if it grows as fast as the threshold.
+    #[test]
+    fn a_band_below_the_threshold_makes_no_saw_unstable() {
+        let at = |rpm: f64, threshold_per_s: f64| -> Result<Computed, SceneError> {
+            let scene = Scene::paper().edited(|saw| {
+                saw.operating_rpm = Some(rpm);
+                saw.flutter_threshold_per_s = threshold_per_s;
+            })?;
+            Ok(question().ask(&scene).unwrap())
+        };
+        let bands = at(1000.0, 0.25).unwrap().bands;
+        let diverges = |speed: f64| {
+            let mut bands = bands.iter();
+            bands.any(|b| b.kind == InstabilityKind::Divergence && b.range().contains(speed))
+        };
+        let mut flutter = bands
+            .iter()
+            .filter(|band| band.kind == InstabilityKind::Flutter && !diverges(band.peak_rad_per_s));
+        let band = flutter.next().expect("flutter without divergence");
+        let peak_rpm = rpm(band.peak_rad_per_s);
+        let [weak, strong] = [2.0, 0.5].map(|share| share * band.peak_growth_per_s);
+        assert!(at(peak_rpm, weak).unwrap().deviation_m.is_some());
+        assert!(at(peak_rpm, strong).unwrap().deviation_m.is_none());
+    }
+}

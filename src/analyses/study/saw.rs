@@ -8,7 +8,7 @@ use super::plan::Study;
 use crate::analyses::campbell::InstabilityBand;
 use crate::analyses::gap::{GapError, GapNumbers};
 use crate::model::scene::{Scene, SpeedRange, rpm};
-use crate::stability::{CRITICAL_MARGIN, Evidence, Onsets};
+use crate::stability::{AnalysisError, CRITICAL_MARGIN, Evidence, Onsets};
 
 /// A saw and its result.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -155,11 +155,18 @@ impl Study {
     }
 
     fn with_onsets(&self, scene: &Scene, onsets: Onsets) -> Result<Found, GapError> {
+        let certificate = &onsets.certificate;
+        if certificate.has_failed() {
+            return Err(GapError::from(AnalysisError::SearchFailed {
+                contradicted: certificate.contradicted(),
+                speeds: certificate.speeds_checked,
+            }));
+        }
         // Speeds of edges have at least the error of the critical speeds.
         let edge_error = Some(onsets.estimated_relative_error);
         let evidence = Evidence {
             bands: &onsets.instabilities,
-            has_failed: onsets.certificate.has_failed(),
+            has_failed: false,
             edge_errors: vec![edge_error; onsets.instabilities.len()],
             critical_rad_per_s: &onsets.critical_rad_per_s,
             threshold_per_s: scene.flutter_threshold_per_s(),
@@ -205,8 +212,7 @@ impl Study {
             gap,
             functions: onsets.functions,
             estimated_relative_error: onsets.estimated_relative_error,
-            krein_violations: onsets.certificate.violations_rad_per_s.len()
-                + onsets.certificate.mismatches.len(),
+            krein_violations: certificate.contradicted(),
         })
     }
 }
@@ -214,4 +220,32 @@ impl Study {
 /// Replaces line ends by spaces, because a row of the log is a single line.
 fn one_line(text: &str) -> String {
     text.split_whitespace().collect::<Vec<_>>().join(" ")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::analyses::study::StudyFile;
+    use crate::model::scene::Accuracy;
+
+    /// Bands that contradict the eigenvalues are neither listed nor counted, and the saw has a reason.
+    #[test]
+    fn a_saw_whose_search_failed_is_not_judged_by_its_bands() {
+        let text = r#"{ "name": "failed", "saws": 2, "bands": true, "parameters": [
+            { "path": "blade.thickness_m", "distribution": { "kind": "uniform", "from": 2.7e-3, "to": 2.9e-3 } } ] }"#;
+        let scene = Scene::paper().edited(|saw| {
+            saw.accuracy = Accuracy::Draft;
+            saw.sweep.as_mut().unwrap().to_rpm = 1500.0;
+        });
+        let file = StudyFile::from_json(text).unwrap();
+        let study = Study::new(scene.unwrap(), file).unwrap();
+        let onsets = || Onsets::new(study.scene()).unwrap();
+        assert!(study.with_onsets(study.scene(), onsets()).is_ok());
+        let mut failed = onsets();
+        failed.certificate.speeds_checked = 40;
+        failed.certificate.violations_rad_per_s = vec![100.0; 4];
+        let found = study.with_onsets(study.scene(), failed);
+        let reason = found.unwrap_err().to_string();
+        assert!(reason.contains("at 4 of 40 speeds"), "{reason}");
+    }
 }

@@ -10,7 +10,7 @@ use super::delayed_saw::DelayedSaw;
 use super::report::WashboardMode;
 use super::roots::{Root, roots_with_all_growing};
 use crate::model::scene::{CutRun, Washboarding};
-use crate::modes::{ModeName, classify, split};
+use crate::modes::{Mode, ModeName, classify, split};
 
 /// Waves that a motion leaves on the board.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -65,22 +65,18 @@ pub fn described(
     found.truncate(LISTED.max(growing));
     found
         .into_iter()
-        .filter_map(|root| mode(motions, washboarding, run, root))
+        .map(|root| mode(motions, washboarding, run, root))
         .collect()
 }
 
-/// The name and the pattern of a root; `None` if no mode has its shape.
-fn mode(
-    motions: &Motions,
-    washboarding: &Washboarding,
-    run: &CutRun,
-    root: Root,
-) -> Option<WashboardMode> {
+/// The name and the pattern of a root.
+fn mode(motions: &Motions, washboarding: &Washboarding, run: &CutRun, root: Root) -> WashboardMode {
     let speed = run.speed_rad_per_s;
     let q = shape(motions, washboarding, speed, root.lambda);
-    let pairs = vec![(root.lambda, q)];
-    let mode = classify(&motions.system, speed, 0, pairs).pop()?;
-    let (reduced_re, reduced_im) = split(&mode.coordinates);
+    let (reduced_re, reduced_im) = split(&q);
+    // A real root may be no mode of the saw without the delayed force.
+    let classified = classify(&motions.system, speed, 0, vec![(root.lambda, q)]).pop();
+    let mode = classified.unwrap_or_else(|| Mode::interpolated(root.lambda, c64::ZERO, 0));
     let (re, im) = (&motions.shapes * reduced_re, &motions.shapes * reduced_im);
     let lifted = Col::from_fn(re.nrows(), |i| c64::new(re[i], im[i]));
     let passing = washboarding.tooth_passing_rad_per_s(speed);
@@ -88,7 +84,7 @@ fn mode(
         .is_even()
         .then(|| Pattern::new(root.lambda.im, passing, run.feed_m_per_s));
     let name = ModeName::new(&motions.plate, &mode, &lifted, speed);
-    Some(WashboardMode {
+    WashboardMode {
         name: name.in_shares(),
         direction: name.direction,
         frequency_hz: root.lambda.im / TAU,
@@ -98,7 +94,7 @@ fn mode(
         tooth_passing_multiple: pattern.map(|pattern| pattern.multiple),
         beside_tooth_passing_hz: pattern.map(|pattern| pattern.beside_rad_per_s / TAU),
         pattern_pitch_m: pattern.and_then(|pattern| pattern.pitch_m),
-    })
+    }
 }
 
 /// Solution x, ‖x‖ = 1, of (L(λ) + k h(λ) B(1 + k h(λ) F)⁻¹Bᵀ) x = 0 by inverse iteration.

@@ -36,7 +36,7 @@ pub(crate) use contact::{GapPotential, pad_force};
 pub use edge_load::{BoreForce, EdgeStress, RimForce, edge_stiffness};
 #[doc(hidden)]
 pub use harmonic::HarmonicBlock;
-pub use light_gap::{LightGap, StraightEdgeReading};
+pub use light_gap::{LightGap, LightGapError, StraightEdgeReading};
 pub use matrices::Plate;
 pub(crate) use membrane::{MembraneSource, MembraneStress, heated_disk, membrane_stiffness};
 pub use resolution::Resolution;

@@ -165,12 +165,12 @@ impl SpectralModel {
         self.solve(speed_rad_per_s, f64::INFINITY)
     }
 
-    /// Modes up to `complete_to`, without free rigid motions, ordered by |Im λ|. For a damped blade modes with
+    /// Modes up to `complete_to`, without free rigid motions, ordered by |Im λ|, at a speed of the range that was asked for. For a damped blade modes with
     /// −Re λ above `complete_to` are omitted: the reduced model does not represent them, and no diagram shows
     /// them.
     ///
     /// # Errors
-    /// [`SpectrumError`] when the eigenproblem fails.
+    /// [`SpectrumError`] when the eigenproblem fails, or where a reduced model does not reach the speed.
     pub fn modes(&self, speed_rad_per_s: f64) -> Result<Vec<Mode>, SpectrumError> {
         let modes = self.solve(speed_rad_per_s, self.complete_to_rad_per_s)?;
         Ok(self.shown(modes))

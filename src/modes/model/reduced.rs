@@ -2,7 +2,7 @@
 
 use std::sync::OnceLock;
 
-use super::SpectralModel;
+use super::{SPLITTING, SpectralModel};
 use crate::model::scene::SpeedRange;
 use crate::modes::chart_height::Strategy;
 use crate::modes::component::{Component, Solution};
@@ -21,6 +21,8 @@ const BELOW_CRITICAL: f64 = 1e-3;
 /// Error of a frequency by waves, relative to the highest, beyond which the range of speeds is too long for their series. The last
 /// coefficient overestimates it: against wood it is 6e-8, where the error is below 1e-9.
 const TAIL: f64 = 1e-6;
+/// Share of a speed by which the range of a model for it alone extends to both sides.
+const AROUND: f64 = 0.01;
 
 impl SpectralModel {
     /// Selects the symmetric eigenproblem in the body frame for every component.
@@ -83,6 +85,23 @@ impl SpectralModel {
             model.use_waves(known.range_rad_per_s(), waves::WIDE_CUT)?;
         }
         Ok(model)
+    }
+
+    /// The model of the same saw for a speed that the reduced models of this one do not reach; `None` if they reach it.
+    ///
+    /// # Errors
+    /// [`SpectrumError`] when an eigenproblem fails.
+    pub(crate) fn for_speed_beside(
+        &self,
+        speed_rad_per_s: f64,
+    ) -> Result<Option<Self>, SpectrumError> {
+        let reaches = |model: &WaveModel| model.range_rad_per_s().contains(speed_rad_per_s);
+        if self.wave_models().iter().all(|(_, model)| reaches(model)) {
+            return Ok(None);
+        }
+        let [from, to] = [1.0 - AROUND, 1.0 + AROUND].map(|share| share * speed_rad_per_s);
+        let range = SpeedRange::new(from, to.max(SPLITTING * frequency_scale(&self.plate)));
+        Self::new(self.plate.clone(), range, Strategy::Reduced).map(Some)
     }
 
     /// Reduced models by waves of the components of a blade, or of the parts into which they decouple further, with the index of

@@ -15,11 +15,9 @@ pub struct WavesAt<'a> {
 impl Family for WaveModel {
     type At<'a> = WavesAt<'a>;
 
-    fn at(&self, speed_rad_per_s: f64) -> WavesAt<'_> {
-        WavesAt {
-            model: self,
-            sums: self.sums(speed_rad_per_s),
-        }
+    fn at(&self, speed_rad_per_s: f64) -> Option<WavesAt<'_>> {
+        let sums = self.sums(speed_rad_per_s)?;
+        Some(WavesAt { model: self, sums })
     }
 }
 

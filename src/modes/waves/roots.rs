@@ -39,9 +39,11 @@ impl WaveModel {
     /// slopes and vectors.
     ///
     /// # Errors
-    /// [`SpectrumError`] when an eigenproblem fails.
+    /// [`SpectrumError`] when an eigenproblem fails, or beside the range of the model.
     pub fn roots(&self, speed_rad_per_s: f64) -> Result<Vec<Root>, SpectrumError> {
-        let sums = self.sums(speed_rad_per_s);
+        let range = self.range_rad_per_s();
+        let beside = || SpectrumError::beside_model(speed_rad_per_s, range);
+        let sums = self.sums(speed_rad_per_s).ok_or_else(beside)?;
         let side_by_side = |column: usize| {
             let entries = sums.col_as_slice(column);
             MatRef::from_column_major_slice(entries, self.size(), entries.len() / self.size())
@@ -61,7 +63,7 @@ impl WaveModel {
     /// The eigenvalues of [`WaveModel::roots`] and their slopes.
     ///
     /// # Errors
-    /// [`SpectrumError`] when an eigenproblem fails.
+    /// [`SpectrumError`] as [`WaveModel::roots`].
     pub fn eigenvalues(&self, speed_rad_per_s: f64) -> Result<Vec<(c64, c64)>, SpectrumError> {
         let roots = self.roots(speed_rad_per_s)?.into_iter();
         Ok(roots.map(|root| (root.lambda, root.slope)).collect())

@@ -14,6 +14,9 @@ use crate::modes::work::Cancellation;
 /// Number of nodes of the series: with 10 its error is up to 2e-8 of the window on drawn saws up to 1.9 times the lowest critical
 /// speed, with 12 up to 2e-10.
 const NODES: usize = 12;
+/// Share of half the range by which a speed may lie beyond an end, for iterations that end at it: there the error of the series is
+/// T₁₁(1.01) = 2.4 times that at the end. Further beyond, it grows without limit.
+const BEYOND: f64 = 0.01;
 /// Entries below this in every term do not couple two components, in units of the window.
 const UNCOUPLED: f64 = 1e-9;
 
@@ -165,11 +168,14 @@ impl WaveModel {
     }
 
     /// Entries of L₀, L₁, … at a speed, one matrix after another, and in a second column their derivatives with respect to
-    /// the speed.
-    pub(super) fn sums(&self, speed_rad_per_s: f64) -> Mat<f64> {
+    /// the speed. `None` beside the range, where the series is not the model.
+    pub(super) fn sums(&self, speed_rad_per_s: f64) -> Option<Mat<f64>> {
         let [from, to] = self.range.ends();
         let half = (0.5 * (to - from)).max(f64::MIN_POSITIVE);
-        let x = ((speed_rad_per_s - 0.5 * (from + to)) / half).clamp(-1.0, 1.0);
+        let x = (speed_rad_per_s - 0.5 * (from + to)) / half;
+        if x.abs() > 1.0 + BEYOND {
+            return None;
+        }
         let (mut value, mut slope) = (vec![1.0, x], vec![0.0, 1.0]);
         for k in 2..NODES {
             value.push(2.0 * x * value[k - 1] - value[k - 2]);
@@ -178,6 +184,6 @@ impl WaveModel {
         let weights = Mat::from_fn(NODES, 2, |degree, k| {
             [value[degree], slope[degree] / half][k]
         });
-        &self.coefficients * weights
+        Some(&self.coefficients * weights)
     }
 }

@@ -19,7 +19,7 @@ use super::harmonic::HarmonicBlock;
 use super::membrane::{MembraneStress, membrane_stiffness};
 use super::radial::RadialBasis;
 use super::stress::CentrifugalStress;
-use crate::model::linalg::{symmetric_eigenvalues, view};
+use crate::model::linalg::{LinalgError, symmetric_eigenvalues, view};
 use crate::model::scene::{GRAVITY_M_PER_S2, Membrane, RefusedValue, RollBand, StraightEdge};
 use crate::page::text::shown_to;
 
@@ -46,6 +46,17 @@ pub struct LightGap {
     pub sag_m: f64,
 }
 
+/// Reason for which the readings of the straight edge could not be computed.
+#[derive(Debug, thiserror::Error)]
+pub enum LightGapError {
+    /// No factor of the roll tension gives the measured gap.
+    #[error(transparent)]
+    Measured(#[from] RefusedValue),
+    /// The buckling of some number of nodal diameters could not be computed.
+    #[error(transparent)]
+    Buckling(#[from] LinalgError),
+}
+
 /// Computed readings of the straight edge of a scene.
 #[derive(Debug, Clone, PartialEq)]
 pub struct StraightEdgeReading {
@@ -64,10 +75,10 @@ impl StraightEdgeReading {
     /// Computes the readings of a blade with rolled bands.
     ///
     /// # Errors
-    /// [`RefusedValue`] if no factor of the roll tension gives the measured gap.
-    pub(crate) fn new(edge: &StraightEdge, bands: &[RollBand]) -> Result<Self, RefusedValue> {
+    /// [`LightGapError`].
+    pub(crate) fn new(edge: &StraightEdge, bands: &[RollBand]) -> Result<Self, LightGapError> {
         let lying = LyingBlade::new(edge, bands, RESOLUTION);
-        let buckling_factor = lying.buckling_factor();
+        let buckling_factor = lying.buckling_factor()?;
         let flat = |factor| {
             lying
                 .at(factor)
@@ -167,15 +178,23 @@ impl LyingBlade {
     }
 
     /// Smallest positive factor at which K_b + s K_m is singular.
-    fn buckling_factor(&self) -> Option<f64> {
-        let largest_of = |wave: &Wave| {
-            let lower = wave.bending.clone().cholesky()?.unpack();
-            let half = lower.solve_lower_triangular(&wave.rolled)?;
-            let relative = lower.solve_lower_triangular(&half.transpose())?;
-            Some(-symmetric_eigenvalues(view(&relative)).ok()?[0])
-        };
-        let largest = self.waves.iter().filter_map(largest_of).fold(0.0, f64::max);
-        (largest > 0.0).then(|| 1.0 / largest)
+    fn buckling_factor(&self) -> Result<Option<f64>, LinalgError> {
+        let mut largest: f64 = 0.0;
+        for wave in &self.waves {
+            let indefinite = || LinalgError::NoConvergence {
+                values: "Cholesky factors of the bending stiffness",
+                order: wave.bending.nrows(),
+            };
+            let relative_to = |lower: DMatrix<f64>| {
+                let half = lower.solve_lower_triangular(&wave.rolled)?;
+                lower.solve_lower_triangular(&half.transpose())
+            };
+            let factors = wave.bending.clone().cholesky();
+            let relative = factors.and_then(|found| relative_to(found.unpack()));
+            let squares = symmetric_eigenvalues(view(&relative.ok_or_else(indefinite)?))?;
+            largest = squares.first().map_or(largest, |least| largest.max(-least));
+        }
+        Ok((largest > 0.0).then(|| 1.0 / largest))
     }
 
     /// The factor, from 0 to `last`, at which the blade has a given gap.

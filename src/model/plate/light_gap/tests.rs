@@ -168,7 +168,7 @@ fn finite_elements_give_the_same_gap() {
 fn the_gap_rises_with_the_rolling_up_to_buckling() {
     let (edge, bands) = edge(ROLLED, |_| ());
     let lying = LyingBlade::new(&edge, &bands, RESOLUTION);
-    let buckling = lying.buckling_factor().unwrap();
+    let buckling = lying.buckling_factor().unwrap().unwrap();
     let gap = |share: f64| lying.at(share * buckling).unwrap().gap_m;
     let gaps: Vec<f64> = (0..=18).map(|k| gap(0.05 * f64::from(k))).collect();
     println!("{buckling} {gaps:?}");
@@ -214,5 +214,16 @@ fn a_gap_that_no_rolling_causes_is_refused_with_the_range_of_gaps() {
                 && refused.contains("between -0.000748"),
             "{refused}"
         );
+    }
+}
+
+/// A wave whose eigenproblem fails might be the one that buckles first: the factor of the others is not that of the blade.
+#[test]
+fn no_wave_is_left_out_of_the_buckling_factor() {
+    let (edge, bands) = edge(ROLLED, |_| ());
+    for fault in [-1.0, f64::NAN] {
+        let mut lying = LyingBlade::new(&edge, &bands, RESOLUTION);
+        lying.waves[2].bending *= fault;
+        assert!(lying.buckling_factor().is_err(), "{fault}");
     }
 }

@@ -1,10 +1,14 @@
 use std::sync::LazyLock;
 
+use faer::c64;
+
 use super::*;
 use crate::model::plate::{Plate, Resolution};
 use crate::model::scene::{Accuracy, Scene, SpeedRange, rad_per_s, rpm};
 use crate::modes::Strategy;
 use crate::stability::Analysis;
+use crate::stability::band::CurvePoint;
+use crate::stability::growth_curve::between;
 use crate::stability::undamped::search_speeds;
 
 fn paper(accuracy: Accuracy) -> (SpectralModel, Vec<f64>) {
@@ -57,6 +61,28 @@ fn certified(sound: &Sound, bands: &[Instability], change: impl Fn(&mut Sample))
         samples: &samples,
     };
     checks.certificate(Depth::Proof).unwrap()
+}
+
+/// A point between two points of a band is the eigenvalue there, and uncounted; where the curve is wrong and no mode grows, it is
+/// interpolated, and the certificate counts it.
+#[test]
+fn points_of_bands_without_a_growing_mode_are_counted() {
+    let checked = CheckedModes::new(&SOUND.model, Extent::Bands);
+    let band = &SOUND.bands[flutter_bands(&SOUND.bands)[0]];
+    let lambda = c64::new(band.peak_growth_per_s, band.frequency_rad_per_s);
+    let middle = |speed: f64| {
+        let point = |share: f64| CurvePoint::new(share * speed, (lambda * lambda, c64::ZERO));
+        between(&checked, [point(1.0 - 1e-9), point(1.0 + 1e-9)], 0.5).unwrap()
+    };
+    let found = middle(band.peak_rad_per_s).number.sqrt();
+    assert!(
+        (found - lambda).norm() < 1e-5 * lambda.norm(),
+        "{found} {lambda}"
+    );
+    assert_eq!(checked.certificate().interpolated, 0);
+    let beside = middle(rad_per_s(500.0));
+    assert_eq!(beside.number, lambda * lambda);
+    assert_eq!(checked.certificate().interpolated, 1);
 }
 
 /// Bands and certificate without a proof.
