@@ -500,9 +500,9 @@ class Scene(Drawn, Mapping[str, Value]):
     def run_deflect(
         self,
         *,
+        to_rpm: Number | None = None,
         force_n: Number | None = None,
         angle_deg: Number | None = None,
-        to_rpm: Number | None = None,
         accuracy: Accuracy | None = None,
         tolerance: Number | None = None,
         progress: Progress = None,
@@ -511,17 +511,17 @@ class Scene(Drawn, Mapping[str, Value]):
 
         Parameters
         ----------
+        to_rpm : float, optional
+            Last speed; by default the end of the scene's sweep.
         force_n : float, optional
             Constant side force, in place of side_force.force_n of the scene; 1 N in a scene without one.
         angle_deg : float, optional
             Angle of the side force, in place of that of the scene.
-        to_rpm : float, optional
-            Last speed; by default the end of the scene's sweep.
         accuracy, tolerance, progress
             As in :meth:`run_campbell`.
         """
-        return self._asked(DeflectResults, accuracy, tolerance, progress, force_n=force_n,
-            angle_deg=angle_deg, to_rpm=to_rpm)
+        return self._asked(DeflectResults, accuracy, tolerance, progress, to_rpm=to_rpm, force_n=force_n,
+            angle_deg=angle_deg)
 
     def run_report(
         self,
@@ -575,10 +575,10 @@ class Scene(Drawn, Mapping[str, Value]):
     def run_gap(
         self,
         *,
-        force_n: Number | None = None,
         gap_m: Number | None = None,
         rpm: Number | None = None,
         max_deviation_m: Number | None = None,
+        force_n: Number | None = None,
         oscillating_force_n: Number | None = None,
         oscillating_order: Number | None = None,
         friction: Number | None = None,
@@ -591,8 +591,6 @@ class Scene(Drawn, Mapping[str, Value]):
 
         Parameters
         ----------
-        force_n : float, optional
-            Constant side force, in place of side_force.force_n of the scene; 1 N in a scene without one.
         gap_m : float, optional
             Gap of every guide, one-sided, in place of the contact of the guides of the scene.
         rpm : float, optional
@@ -600,6 +598,8 @@ class Scene(Drawn, Mapping[str, Value]):
             critical speed.
         max_deviation_m : float, optional
             Largest deflection at the cut that is allowed.
+        force_n : float, optional
+            Constant side force, in place of side_force.force_n of the scene; 1 N in a scene without one.
         oscillating_force_n : float, optional
             Amplitude of a side force that oscillates, in place of side_force.oscillating_n of the scene:
             the oscillation of the blade about its deflection is computed. Run-out, flatness and imbalance
@@ -613,8 +613,8 @@ class Scene(Drawn, Mapping[str, Value]):
         accuracy, tolerance, progress
             As in :meth:`run_campbell`.
         """
-        return self._asked(GapResults, accuracy, tolerance, progress, force_n=force_n, gap_m=gap_m, rpm=rpm,
-            max_deviation_m=max_deviation_m, oscillating_force_n=oscillating_force_n,
+        return self._asked(GapResults, accuracy, tolerance, progress, gap_m=gap_m, rpm=rpm,
+            max_deviation_m=max_deviation_m, force_n=force_n, oscillating_force_n=oscillating_force_n,
             oscillating_order=oscillating_order, friction=friction)
 
     def run_washboard(
@@ -705,7 +705,6 @@ class Scene(Drawn, Mapping[str, Value]):
         min_critical_rpm: Number | None = None,
         amplitude_m: Number | None = None,
         max_deviation_m: Number | None = None,
-        force_n: Number | None = None,
         samples: SupportsIndex = 64,
         refine: SupportsIndex = 60,
         map: SupportsIndex = 17,
@@ -713,6 +712,7 @@ class Scene(Drawn, Mapping[str, Value]):
         angle_tolerance_deg: Number = 1.0,
         guide_tolerance_share: Number = 0.1,
         other_tolerance_share: Number = 0.01,
+        force_n: Number | None = None,
         accuracy: Accuracy | None = None,
         tolerance: Number | None = None,
         progress: Progress = None,
@@ -734,8 +734,6 @@ class Scene(Drawn, Mapping[str, Value]):
             computed; by default guides have their full stiffness.
         max_deviation_m : float, optional
             Largest allowed deflection at the cut at the operating speed, with guides with a gap.
-        force_n : float, optional
-            Constant side force, in place of side_force.force_n of the scene; 1 N in a scene without one.
         samples : int
             Saws in the first sampling of the bounds.
         refine : int
@@ -751,6 +749,8 @@ class Scene(Drawn, Mapping[str, Value]):
             Tolerance of the stiffness, damping or gap of a guide, as a share of it.
         other_tolerance_share : float
             Tolerance of other numbers, as a share of each.
+        force_n : float, optional
+            Constant side force, in place of side_force.force_n of the scene; 1 N in a scene without one.
         accuracy, tolerance, progress
             As in :meth:`run_campbell`.
 
@@ -765,10 +765,10 @@ class Scene(Drawn, Mapping[str, Value]):
         """
         return self._asked(PlaceResults, accuracy, tolerance, progress, free=free, goal=goal,
             min_critical_rpm=min_critical_rpm, amplitude_m=amplitude_m, max_deviation_m=max_deviation_m,
-            force_n=force_n, samples=whole("samples", samples), refine=whole("refine", refine),
-            map=whole("map", map), radius_tolerance_m=radius_tolerance_m,
-            angle_tolerance_deg=angle_tolerance_deg, guide_tolerance_share=guide_tolerance_share,
-            other_tolerance_share=other_tolerance_share)
+            samples=whole("samples", samples), refine=whole("refine", refine), map=whole("map", map),
+            radius_tolerance_m=radius_tolerance_m, angle_tolerance_deg=angle_tolerance_deg,
+            guide_tolerance_share=guide_tolerance_share, other_tolerance_share=other_tolerance_share,
+            force_n=force_n)
     # End of what is generated.
 
     def run_map(

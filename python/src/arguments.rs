@@ -1,13 +1,13 @@
 //! Arguments of the methods of a scene, as the table of the library lists them.
 
 use pyo3::conversion::FromPyObjectOwned;
-use pyo3::exceptions::PyKeyError;
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyMapping, PyString};
-use sawflutter::analyses::commands::{ArgumentKind, Call};
-use sawflutter::model::scene::{AssumedBlock, NamedBounds, Scene, Setting};
+use sawflutter::analyses::door::{Argument, ArgumentKind};
+use sawflutter::model::scene::{NamedBounds, Scene};
+use serde_json::{Map, Value, json};
 
-use crate::failure::{Failure, Refusal};
+use crate::failure::Failure;
 use crate::values::{number, refused};
 
 /// The scene of a JSON text.
@@ -42,15 +42,33 @@ impl<'py> Options<'py> {
             .transpose()
     }
 
-    /// A number that has a default.
-    pub fn given(&self, name: &str) -> PyResult<f64> {
-        let missing = || PyKeyError::new_err(name.to_owned());
-        self.number(name)?.ok_or_else(missing)
-    }
-
-    /// Millimetres of a number in metres.
-    pub fn millimetres(&self, name: &str) -> PyResult<Option<f64>> {
-        Ok(self.number(name)?.map(|metres| 1e3 * metres))
+    /// The values of the arguments of a command as JSON, without those that are not given.
+    pub fn given(&self, arguments: &[Argument]) -> PyResult<Map<String, Value>> {
+        let mut found = Map::new();
+        for argument in arguments {
+            let name = argument.name.as_str();
+            let Some(given) = self.found(name)? else {
+                continue;
+            };
+            let value = match &argument.kind {
+                ArgumentKind::Number(_) => {
+                    let named = if argument.sets.is_empty() {
+                        name
+                    } else {
+                        argument.sets.as_str()
+                    };
+                    finite(named, &given)?
+                }
+                ArgumentKind::Count(_) => self.get::<u64>(name)?.into(),
+                ArgumentKind::Flag => self.get::<bool>(name)?.into(),
+                ArgumentKind::Word(_) | ArgumentKind::Text => self.get::<String>(name)?.into(),
+                ArgumentKind::Speeds => self.get::<Vec<f64>>(name)?.into(),
+                ArgumentKind::Bounds => json!(self.bounds(name)?),
+                ArgumentKind::Table => json!(self.get::<(String, String)>(name)?),
+            };
+            found.insert(argument.name.clone(), value);
+        }
+        Ok(found)
     }
 
     /// Paths of numbers of the scene, with or without bounds.
@@ -82,33 +100,20 @@ impl<'py> Options<'py> {
             })
             .collect()
     }
+}
 
-    /// The scene with the numbers that the options of a command replace, and a sentence with those that were assumed beside
-    /// them, if any were.
-    pub fn applied(&self, call: &Call, scene: Scene) -> PyResult<(Scene, Option<String>)> {
-        let (mut settings, mut flags) = (Vec::new(), Vec::new());
-        for argument in call.arguments.iter().filter(|of| !of.sets.is_empty()) {
-            let path = argument.sets;
-            match (self.found(argument.name)?, argument.kind) {
-                (None, _) => (),
-                (Some(value), ArgumentKind::Flag) => flags.push((path, value.extract()?)),
-                (Some(value), _) => {
-                    settings.push(Setting::new(path.to_owned(), number(path, &value)?));
-                }
-            }
-        }
-        let (scene, said) = completed(call, scene, &settings)?;
-        let scene = flags.into_iter().try_fold(scene, |scene, (path, value)| {
-            scene.edited(|file| match path {
-                "cut.stretching" => file.cut.iter_mut().for_each(|cut| cut.stretching = value),
-                _ => file
-                    .runup
-                    .iter_mut()
-                    .for_each(|runup| runup.stretching = value),
-            })
-        });
-        Ok((scene.map_err(Failure::from)?, said))
+/// A number, which JSON has only if it is finite.
+fn finite(name: &str, given: &Bound<'_, PyAny>) -> PyResult<Value> {
+    let value = number(name, given)?;
+    if value.is_finite() {
+        return Ok(value.into());
     }
+    refused(
+        name,
+        given,
+        "a finite number".to_owned(),
+        "give a number, or None to leave it out",
+    )
 }
 
 fn bounds_at(path: &str, bounds: &Bound<'_, PyAny>) -> PyResult<Option<(f64, f64)>> {
@@ -126,60 +131,4 @@ fn bounds_at(path: &str, bounds: &Bound<'_, PyAny>) -> PyResult<Option<(f64, f64
             refused(path, bounds, allowed, "write it like (0.18, 0.28)")
         }
     }
-}
-
-/// The scene with settings. For a block that it lacks, typical numbers are assumed beside them.
-fn completed(
-    call: &Call,
-    scene: Scene,
-    settings: &[Setting],
-) -> Result<(Scene, Option<String>), Failure> {
-    let (block, keys, example) = match call.command {
-        "cut" => {
-            let keys = "power_w, depth_m, feed_m_per_s";
-            (AssumedBlock::Cut, keys, "run_cut(2400, power_w=12000)")
-        }
-        "runup" => (
-            AssumedBlock::RunUp,
-            "to_rpm, duration_s",
-            "run_up(to_rpm=3000)",
-        ),
-        "washboard" if !settings.is_empty() => (AssumedBlock::Washboarding, "", ""),
-        _ => return Ok((scene.file().set(settings)?, None)),
-    };
-    let has_block = match block {
-        AssumedBlock::Cut => scene.cut().is_some(),
-        AssumedBlock::RunUp => scene.runup().is_some(),
-        AssumedBlock::Washboarding => scene.needed_washboarding().is_ok(),
-    };
-    let key = block.key();
-    if settings.is_empty() {
-        return if has_block {
-            Ok((scene, None))
-        } else {
-            Err(missing(key, keys, example))
-        };
-    }
-    let found = block.completed(&scene, settings)?;
-    let said = (!found.assumed.is_empty()).then(|| {
-        format!(
-            "the scene has no {key}; assumed typical values: {}",
-            found.in_words()
-        )
-    });
-    Ok((found.scene, said))
-}
-
-fn missing(block: &str, keys: &str, example: &str) -> Failure {
-    let remedy = format!(
-        "add it with {keys}, or give a number, with which typical ones are assumed: {example}"
-    );
-    Failure::Refused(Box::new(Refusal {
-        class: "ArgumentError",
-        message: format!("the scene has no {block}; {remedy}"),
-        key: Some(block.to_owned()),
-        value: None,
-        allowed: Some(format!("a block {block}")),
-        remedy: Some(remedy),
-    }))
 }

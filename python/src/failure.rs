@@ -1,26 +1,16 @@
 //! Reasons of a failed computation, and the Python exceptions for them.
 
-use std::fmt::Display;
-
 use pyo3::exceptions::{PyIsADirectoryError, PyOSError, PyRuntimeError};
 use pyo3::prelude::*;
 use pyo3::types::PyType;
-use sawflutter::analyses::check::CheckError;
 use sawflutter::analyses::compare::CompareError;
-use sawflutter::analyses::deflect::DeflectError;
-use sawflutter::analyses::fit::FitError;
-use sawflutter::analyses::gap::GapError;
-use sawflutter::analyses::place::PlaceError;
-use sawflutter::analyses::report::DesignError;
-use sawflutter::analyses::response::ResponseError;
+use sawflutter::analyses::door::CommandError;
 use sawflutter::analyses::study::{LogError, StudyError};
-use sawflutter::analyses::washboard::WashboardError;
 use sawflutter::page::figure::FigureError;
 
 use sawflutter::model::scene::{RefusedValue, SceneError};
 use sawflutter::modes::SpectrumError;
 use sawflutter::motion::stretched_blade::StretchedError;
-use sawflutter::motion::transient::TransientError;
 use sawflutter::page::text::FileError;
 use sawflutter::stability::{AnalysisError, SensitivityError};
 
@@ -175,19 +165,20 @@ impl From<StudyError> for Failure {
     }
 }
 
-impl From<WashboardError> for Failure {
-    fn from(error: WashboardError) -> Self {
-        let message = error.to_string();
+impl From<CommandError> for Failure {
+    fn from(error: CommandError) -> Self {
         match error {
-            WashboardError::Scene(source) => source.into(),
-            WashboardError::Undamped { .. } => {
-                Refusal::saying("SceneError", message, Some("damping".into()))
+            CommandError::Refused(refused) => refused.into(),
+            CommandError::Set { source, .. } | CommandError::Scene(source) => source.into(),
+            CommandError::Unanswered { key, message } => {
+                let class = if key.is_some() {
+                    "SceneError"
+                } else {
+                    "ArgumentError"
+                };
+                Refusal::saying(class, message, key.map(str::to_owned))
             }
-            WashboardError::Incomplete { .. } => {
-                Refusal::saying("SceneError", message, Some("blade.teeth".into()))
-            }
-            WashboardError::Loose => Refusal::saying("SceneError", message, Some("guides".into())),
-            _ => Failure::Failed(message),
+            CommandError::Failed(error) => Failure::Failed(error.to_string()),
         }
     }
 }
@@ -202,38 +193,6 @@ impl From<LogError> for Failure {
             _ => Refusal::saying("StudyError", message, None),
         }
     }
-}
-
-/// Conversions of errors by the error of a variant; a function converts the other variants.
-macro_rules! passed_on {
-    ($($error:ident: $($variant:ident)+ $(, $others:expr)?;)*) => {
-        $(impl From<$error> for Failure {
-            fn from(error: $error) -> Self {
-                match error {
-                    $($error::$variant(source) => source.into(),)+
-                    $(other => $others(&other),)?
-                }
-            }
-        })*
-    };
-}
-passed_on! {
-    FitError: Scene Analysis Spectrum, refused;
-    PlaceError: Scene Analysis Spectrum Gap, refused;
-    TransientError: Scene, failed;
-    GapError: Refused Scene Analysis Spectrum Stretched;
-    ResponseError: Refused Scene Analysis Spectrum;
-    DesignError: Scene Analysis Spectrum Sensitivity Response Gap;
-    DeflectError: Refused Scene Analysis, failed;
-    CheckError: Scene Analysis Spectrum Stretched;
-}
-
-fn refused(error: &dyn Display) -> Failure {
-    Refusal::saying("ArgumentError", error, None)
-}
-
-fn failed(error: &dyn Display) -> Failure {
-    Failure::Failed(error.to_string())
 }
 
 /// Conversions of errors whose message is complete.

@@ -15,6 +15,7 @@ mod watch;
 
 use pyo3::prelude::*;
 use pyo3::types::PyBytes;
+use sawflutter::analyses::door::CommandError;
 use sawflutter::analyses::fit::{FitError, number_columns};
 use sawflutter::model::scene::{MAX_SCENE_BYTES, Scene};
 use sawflutter::page::text::{Kind, OtherEncodings, read_path};
@@ -93,7 +94,7 @@ fn columns<'py>(
             let said = format!("line {line} of {}: {problem}", path.display());
             failure::Refusal::saying("InputError", said, None)
         }
-        other => other.into(),
+        other => CommandError::from(other).into(),
     })?;
     let bytes = |numbers: &[f64]| {
         numbers
@@ -121,7 +122,7 @@ fn schema() -> String {
 /// Arguments of each command beside its scene, as JSON.
 #[pyfunction]
 fn calls() -> String {
-    serde_json::json!(sawflutter::analyses::commands::CALLS).to_string()
+    serde_json::json!(sawflutter::analyses::commands::Call::all()).to_string()
 }
 
 /// The keys of a scene, or of a study, whose path contains a word, as text.

@@ -8,6 +8,7 @@ use std::sync::{Arc, Mutex};
 use pyo3::prelude::*;
 use pyo3::types::PyBytes;
 use sawflutter::analyses::commands::CommandReport;
+use sawflutter::analyses::door::CommandError;
 use sawflutter::analyses::study::{
     self, CsvTable, Log, LogError, Outcome, ParquetTable, Rows, Saw, Shard, StudyFile, Table,
 };
@@ -195,7 +196,7 @@ pub fn speeds(py: Python<'_>, scene: &str, beside: Option<&str>) -> PyResult<(St
     let Some(beside) = beside else {
         return compute(py, None, move |_| {
             let study = study::Study::of_one(scene)?;
-            let text = json(&study.own_speeds()?)?;
+            let text = json(&study.own_speeds().map_err(CommandError::from)?)?;
             Ok((text, rpm(study.to_rad_per_s())))
         });
     };
@@ -209,7 +210,7 @@ pub fn speeds(py: Python<'_>, scene: &str, beside: Option<&str>) -> PyResult<(St
             Some(study) => study,
             None => Arc::new(study::Study::of_one(nominal)?),
         };
-        let text = json(&study.speeds(&scene)?)?;
+        let text = json(&study.speeds(&scene).map_err(CommandError::from)?)?;
         let to_rpm = rpm(study.to_rad_per_s());
         Ok((study, text, to_rpm))
     })?;

@@ -13,6 +13,7 @@ pub mod compare;
 pub mod cut;
 pub mod deflect;
 pub(crate) mod document;
+pub mod door;
 pub mod fit;
 pub mod gap;
 pub mod map;

@@ -144,7 +144,7 @@ fn a_scene_without_a_cut_takes_one_from_options_and_says_what_is_assumed() {
     assert!(said.contains("cut.lateral_n_per_tooth = 1"), "{said}");
     assert!(!said.contains("cut.power_w"), "{said}");
     let length = ["cut", scene, "--power", "20mm"];
-    let words = "--power must be a number in W … (you gave \"20mm\")";
+    let words = "'20mm' for '--power <W>': it must be a number in W … (you gave \"20mm\")";
     assert_refused(&length, words, &folder);
 }
 

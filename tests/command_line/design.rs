@@ -197,7 +197,7 @@ fn the_exit_code_says_whether_the_limit_is_kept_or_the_input_refused() {
         (&["--map", "1"], 2, "--map must be … (you gave 1)"),
         (&["--samples", "0"], 2, "--samples must be … (you gave 0)"),
         (
-            &["--radius-tolerance", "-0.002"],
+            &["--radius-tolerance", "-2mm"],
             2,
             "--radius-tolerance must be from 0 to 0.1 … (you gave -0.002)",
         ),

@@ -287,7 +287,8 @@ fn page_and_program_word_a_missing_block_equally() {
     ];
     let server = Server::start();
     for (command, options, expected) in cases {
-        let asked = json!({ "scene": saw.file(), "window": !options.is_empty() });
+        let asked =
+            json!({ "scene": saw.file(), "options": { "goal": options.last().unwrap_or(&"") } });
         let answer = server.ask(&format!("POST /task/{command}"), &[], &asked.to_string());
         let refusal = &answer.last_line()["refusal"];
         assert_eq!(refusal["key"], expected.key, "{command}");

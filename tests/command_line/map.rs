@@ -148,7 +148,7 @@ fn numbers_that_are_none_and_ranges_without_ends_are_refused() {
         (&["--x", "blade.thickness_m=3mm..2mm"], "--x was refused"),
         (
             &["--x", "blade.width_m=2..3"],
-            "--x blade.width_m=2..3 was refused",
+            "'blade.width_m=2..3' for '--x <PATH=FROM..TO>'",
         ),
         (
             &[

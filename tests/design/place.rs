@@ -9,9 +9,10 @@ use faer::Col;
 use faer::linalg::solvers::Solve;
 use rayon::prelude::*;
 use sawflutter::analyses::commands::CommandReport;
+use sawflutter::analyses::door::Step;
 use sawflutter::analyses::gap;
 use sawflutter::analyses::place::{
-    self, Demands, FrontSaw, GapDemands, Options, PlaceError, PlaceReport, Step, Tolerances,
+    self, Demands, FrontSaw, GapDemands, Options, PlaceError, PlaceReport, Tolerances,
 };
 use sawflutter::analyses::response::{self, response};
 use sawflutter::model::plate::{Plate, Resolution};
@@ -380,7 +381,7 @@ fn the_gap_is_as_narrow_as_the_deflection_demands() {
         .unwrap();
     let free = freed(&saw, &[("guides[0].gap_m", 2e-5, 1e-4)]);
     let demands = Demands {
-        gap: GapDemands::new(&saw, Some(0.15), Some(0.3)).unwrap(),
+        gap: GapDemands::new(&saw, Some(1.5e-4), Some(3e-4)).unwrap(),
         ..Demands::default()
     };
     let few = Options {

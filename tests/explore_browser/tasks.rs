@@ -371,7 +371,7 @@ fn a_task_that_cannot_be_done_says_why_in_the_words_of_the_form() {
             (
                 "place",
                 "document.querySelector('#place-least').value = '-9'",
-                "The lower limit of the first critical speed must be above 0 rpm",
+                "Lowest allowed first critical speed must be above 0 and at most 1e8 (you gave -9); speeds are positive; for a saw that turns the other way change the sign of every angle",
             ),
             (
                 "study",

@@ -77,7 +77,7 @@ pub const RIM_LIMIT_M_PER_S: f64 = 100.0;
 /// Factor by which the sweep exceeds the speeds of the limits.
 const BEYOND: f64 = 1.02;
 /// Largest limit of the amplitude: at a larger amplitude the slopes of any saw exceed the range of the model.
-const MAX_AMPLITUDE_MM: f64 = 1e3;
+const MAX_AMPLITUDE_M: f64 = 1.0;
 /// Largest limit of the rim speed; it exceeds the speed of sound in steel.
 const MAX_RIM_M_PER_S: f64 = 1e4;
 
@@ -99,24 +99,22 @@ impl Limits {
         Err(RefusedValue::new(key, max_rim_m_per_s, allowed, remedy))
     }
 
-    /// Replaces the limit of the amplitude of flutter, in millimetres.
+    /// Replaces the limit of the amplitude of flutter.
     ///
     /// # Errors
     /// [`RefusedValue`] if the limit is out of range.
-    pub fn with_amplitude(self, max_amplitude_mm: Option<f64>) -> Result<Self, RefusedValue> {
-        let Some(given) = max_amplitude_mm else {
-            return Ok(self);
-        };
-        if given > 0.0 && given <= MAX_AMPLITUDE_MM {
-            return Ok(Limits {
-                max_amplitude_m: Some(1e-3 * given),
+    pub fn with_amplitude(self, max_amplitude_m: Option<f64>) -> Result<Self, RefusedValue> {
+        match max_amplitude_m {
+            Some(given) if !(given > 0.0 && given <= MAX_AMPLITUDE_M) => {
+                let allowed = format!("above 0 and at most {} m", shown(MAX_AMPLITUDE_M));
+                let remedy = "give a length such as the gap of a guide or a share of the kerf";
+                Err(RefusedValue::new("max_amplitude_m", given, allowed, remedy))
+            }
+            _ => Ok(Limits {
+                max_amplitude_m,
                 ..self
-            });
+            }),
         }
-        let allowed = format!("above 0 and at most {}", shown(MAX_AMPLITUDE_MM));
-        let remedy = "give it in millimetres, such as the gap of a guide or a share of the kerf";
-        let key = "max_amplitude_mm";
-        Err(RefusedValue::new(key, given, allowed, remedy))
     }
 
     /// The 85 % rule and the usual limit of the rim speed for an operating speed, without other limits.

@@ -17,6 +17,7 @@
 pub(crate) mod chart;
 mod criteria;
 mod limits;
+mod options;
 mod outline;
 mod report;
 mod rim;
@@ -41,6 +42,7 @@ use criteria::{of_gaps, without_stiffness};
 pub(crate) use limits::RIM_LIMIT_M_PER_S;
 use limits::Reach;
 pub use limits::{Limits, LimitsFile};
+pub use options::Options;
 pub use report::{CheckReport, Criterion, RimStiffness};
 pub(crate) use rim::{
     Judged, point_load_plate, rim_at_cut, rim_stiffness_at_rest_n_per_m, side_force_factor,

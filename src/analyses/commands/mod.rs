@@ -3,12 +3,12 @@
 //! The program, its help, the live page, the Python package and the tests of the documentation read [`COMMANDS`]. All
 //! faces of a report are methods of [`CommandReport`].
 
-mod arguments;
+mod call;
 #[cfg(test)]
 mod golden_tests;
 mod list_lengths;
 
-pub use arguments::{Argument, ArgumentKind, CALLS, Call};
+pub use call::{Call, Ran};
 
 use schemars::JsonSchema;
 use schemars::generate::SchemaSettings;

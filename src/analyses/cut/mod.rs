@@ -20,6 +20,7 @@ mod chart_tests;
 mod criteria;
 mod history;
 pub(crate) mod map_chart;
+mod options;
 pub(crate) mod orbit_chart;
 mod outline;
 mod record;
@@ -49,6 +50,7 @@ use crate::stability::ChosenBasis;
 
 pub use certificate::CutCertificate;
 pub use criteria::{CutCriterion, CutFinding, CutVerdict};
+pub use options::Options;
 pub use report::{ByPower, CutAtSpeed, CutReport};
 pub use spline::SplineOrbit;
 pub use stretching::CutStretching;

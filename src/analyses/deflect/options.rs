@@ -1,11 +1,17 @@
 //! The range of speeds, and the refusal of a force.
 
-use crate::model::scene::{RefusedValue, SideForce, speed_rad_per_s};
+use schemars::JsonSchema;
+use serde::Deserialize;
+
+use super::{DeflectError, DeflectReport, deflect};
+use crate::analyses::door::{CommandError, CommandOptions, Progress, SceneNumber};
+use crate::model::scene::{RefusedValue, Scene, SideForce, speed_rad_per_s};
 use crate::motion::stretched_blade::LARGEST_SLOPE;
 use crate::page::text::{rounded_down, shown_to};
 
-/// Options of the computation of equilibria.
-#[derive(Debug, Clone, Copy, Default, PartialEq)]
+/// Computes the equilibrium deflection of the blade while its speed slowly rises and falls.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields, default)]
 pub struct Options {
     /// Last speed; by default the end of the scene's sweep.
     pub to_rpm: Option<f64>,
@@ -20,6 +26,36 @@ impl Options {
         match self.to_rpm {
             Some(to_rpm) => speed_rad_per_s("to_rpm", to_rpm).map(|_| ()),
             None => Ok(()),
+        }
+    }
+}
+
+impl CommandOptions for Options {
+    type Report = DeflectReport;
+    const COMMAND: &str = "deflect";
+    const METHOD: &str = "run_deflect";
+    const SETS: &[SceneNumber] = &[
+        SceneNumber::FORCE,
+        SceneNumber::new(
+            "angle_deg",
+            "",
+            "side_force.angle_deg",
+            "Angle of the side force, in place of that of the scene",
+        ),
+    ];
+
+    fn compute(&self, scene: &Scene, _: Progress<'_>) -> Result<DeflectReport, CommandError> {
+        Ok(deflect(scene, self)?)
+    }
+}
+
+impl From<DeflectError> for CommandError {
+    fn from(error: DeflectError) -> Self {
+        match error {
+            DeflectError::Refused(source) => source.into(),
+            DeflectError::Scene(source) => source.into(),
+            DeflectError::Analysis(source) => source.into(),
+            DeflectError::Stretched(source) => source.into(),
         }
     }
 }

@@ -37,6 +37,7 @@ mod number_column;
 mod options;
 mod outline;
 mod report;
+mod request;
 mod starts;
 mod table;
 mod titles;
@@ -62,6 +63,7 @@ use model::Model;
 pub use number_column::NumberColumn;
 pub use options::Options;
 pub use report::{Curves, FitReport, FittedParameter, Minimum, Residual, Start};
+pub use request::Request;
 use starts::{Searched, refined, search};
 
 /// Shares at which the effect of a number is examined.

@@ -63,6 +63,9 @@ use crate::stability::Analysis;
 /// # Errors
 /// [`GapError`].
 pub fn gap(scene: &Scene, options: &Options) -> Result<GapReport, GapError> {
+    let tried = options.gap_m.map(|gap_m| scene.with_gap(gap_m));
+    let tried = tried.transpose()?;
+    let scene = tried.as_ref().map_or(scene, |tried| &tried.scene);
     options.checked(scene)?;
     let analysis = Analysis::new(scene)?;
     let amplitude = AmplitudeChart::new(&analysis)?;
@@ -74,8 +77,7 @@ pub fn gap(scene: &Scene, options: &Options) -> Result<GapReport, GapError> {
         .or(first.map(|critical| 0.5 * critical.speed_rad_per_s))
         .unwrap_or(analysis.range_rad_per_s.to_rad_per_s);
     let speed_rpm = rpm(speed);
-    let limit_m = options.max_deviation_mm.map(|mm| 1e-3 * mm);
-    let deviation = deviation_map(&analysis, speed_rpm, limit_m)?;
+    let deviation = deviation_map(&analysis, speed_rpm, options.max_deviation_m)?;
     let oscillators = Oscillators::of(scene);
     let oscillation = oscillators
         .map(|all| oscillation(&analysis, &all, speed))

@@ -29,7 +29,7 @@ pub(crate) struct GapNumbers {
 }
 
 /// Largest amplitude that is accepted; no blade oscillates as far.
-const MAX_AMPLITUDE_MM: f64 = 1e3;
+const MAX_AMPLITUDE_M: f64 = 1.0;
 
 impl GapCase {
     /// The speed of the options or the operating speed, and an amplitude at the guides.
@@ -39,29 +39,23 @@ impl GapCase {
     pub fn new(
         scene: &Scene,
         options: &Options,
-        amplitude_mm: Option<f64>,
+        amplitude_m: Option<f64>,
     ) -> Result<Self, RefusedValue> {
         options.checked_still(scene)?;
         let typed = match options.rpm {
             Some(typed) => typed,
             None => rpm(speed_rad_per_s("rpm", scene.needed_operating_rpm(None)?)?),
         };
-        if let Some(amplitude) = amplitude_mm
-            && !(amplitude > 0.0 && amplitude <= MAX_AMPLITUDE_MM)
+        if let Some(amplitude) = amplitude_m
+            && !(amplitude > 0.0 && amplitude <= MAX_AMPLITUDE_M)
         {
-            let allowed = "above 0 and at most 1000";
-            let remedy =
-                "give the amplitude of an oscillation at the guides in millimetres, such as 0.1";
-            return Err(RefusedValue::new(
-                "amplitude_mm",
-                amplitude,
-                allowed,
-                remedy,
-            ));
+            let allowed = "above 0 and at most 1 m";
+            let remedy = "give the amplitude of an oscillation at the guides, such as 1e-4";
+            return Err(RefusedValue::new("amplitude_m", amplitude, allowed, remedy));
         }
         Ok(GapCase {
             rpm: typed,
-            amplitude_m: amplitude_mm.map(|mm| 1e-3 * mm),
+            amplitude_m,
         })
     }
 

@@ -1,21 +1,77 @@
 //! Speed and limit of the deflection, and the scenes that are answered.
 
+use schemars::JsonSchema;
+use serde::Deserialize;
+
+use super::{GapError, GapReport, gap};
+use crate::analyses::door::{CommandError, CommandOptions, Progress, SceneNumber};
 use crate::model::scene::{Blade, Bore, Guide, RefusedValue, Scene, speed_rad_per_s};
 use crate::motion::steady::Oscillators;
 use crate::motion::stretched_blade::LARGEST_SLOPE;
 use crate::page::text::shown_to;
 
-/// Options of [`gap`](super::gap()).
-#[derive(Debug, Clone, Copy, Default, PartialEq)]
+/// Evaluates guides with a gap: the chart over the amplitude at them, and the deflection at the cut over the gap.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields, default)]
 pub struct Options {
+    /// Gap of every guide, one-sided, in place of the contact of the guides of the scene.
+    pub gap_m: Option<f64>,
     /// Speed of the map over gap and force; by default the operating speed, or half of the first critical speed.
     pub rpm: Option<f64>,
     /// Largest deflection at the cut that is allowed.
-    pub max_deviation_mm: Option<f64>,
+    pub max_deviation_m: Option<f64>,
+}
+
+impl CommandOptions for Options {
+    type Report = GapReport;
+    const COMMAND: &str = "gap";
+    const METHOD: &str = "run_gap";
+    const SETS: &[SceneNumber] = &[
+        SceneNumber::FORCE,
+        SceneNumber::new(
+            "oscillating_force_n",
+            "oscillating-force",
+            "side_force.oscillating_n",
+            "Amplitude of a side force that oscillates, in place of side_force.oscillating_n of the scene: the oscillation of the blade about its deflection is computed. Run-out, flatness and imbalance of response in the scene make it oscillate, too",
+        ),
+        SceneNumber::new(
+            "oscillating_order",
+            "oscillating-order",
+            "side_force.order",
+            "Ratio of the frequency of this force to that of rotation, in place of side_force.order of the scene; by default 1",
+        ),
+        SceneNumber::new(
+            "friction",
+            "friction",
+            "friction.coefficient",
+            "Coefficient of friction of the pads, in place of friction.coefficient of the scene: the heat of the pads is computed, and the deflection of the blade that it heats",
+        ),
+    ];
+
+    fn compute(&self, scene: &Scene, _: Progress<'_>) -> Result<GapReport, CommandError> {
+        Ok(gap(scene, self)?)
+    }
+
+    fn assumptions(&self, scene: &Scene) -> Option<String> {
+        let tried = scene.with_gap(self.gap_m?).ok()?;
+        (!tried.assumed.is_empty()).then(|| format!("assumed beside the gap: {}", tried.in_words()))
+    }
+}
+
+impl From<GapError> for CommandError {
+    fn from(error: GapError) -> Self {
+        match error {
+            GapError::Refused(source) => source.into(),
+            GapError::Scene(source) => source.into(),
+            GapError::Analysis(source) => source.into(),
+            GapError::Spectrum(source) => source.into(),
+            GapError::Stretched(source) => source.into(),
+        }
+    }
 }
 
 /// Largest limit of the deflection that is accepted; no blade deflects as far.
-const MAX_DEVIATION_MM: f64 = 1e3;
+const MAX_DEVIATION_M: f64 = 1.0;
 
 impl Options {
     /// Refuses invalid numbers, and a scene without a one-sided guide.
@@ -32,18 +88,12 @@ impl Options {
         if let Some(rpm) = self.rpm {
             speed_rad_per_s("rpm", rpm)?;
         }
-        if let Some(limit) = self.max_deviation_mm
-            && !(limit > 0.0 && limit <= MAX_DEVIATION_MM)
+        if let Some(limit) = self.max_deviation_m
+            && !(limit > 0.0 && limit <= MAX_DEVIATION_M)
         {
-            let allowed = "above 0 and at most 1000";
-            let remedy =
-                "give the largest deflection allowed at the cut in millimetres, such as 0.1";
-            return Err(RefusedValue::new(
-                "max_deviation_mm",
-                limit,
-                allowed,
-                remedy,
-            ));
+            let allowed = "above 0 and at most 1 m";
+            let remedy = "give the largest deflection allowed at the cut, such as 1e-4";
+            return Err(RefusedValue::new("max_deviation_m", limit, allowed, remedy));
         }
         let force_n = scene.file().side_force_n();
         if force_n == 0.0 {

@@ -44,7 +44,7 @@ fn the_mean_stiffness_is_the_first_harmonic_of_the_force() {
 fn the_chart_over_the_amplitude_joins_the_free_blade_and_the_linear_one() {
     let scene = lifting(4e-5);
     let options = Options {
-        max_deviation_mm: Some(0.3),
+        max_deviation_m: Some(3e-4),
         ..Options::default()
     };
     let chart = gap(&scene, &options).unwrap();
@@ -192,10 +192,10 @@ fn what_cannot_be_answered_is_refused() {
         ),
         (
             Options {
-                max_deviation_mm: Some(f64::NAN),
+                max_deviation_m: Some(f64::NAN),
                 ..options
             },
-            "max_deviation_mm",
+            "max_deviation_m",
         ),
     ] {
         assert_eq!(options.checked(&scene).unwrap_err().key, key);

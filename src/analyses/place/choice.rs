@@ -5,11 +5,11 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 
 use rayon::prelude::*;
 
+use crate::analyses::door::Progress;
 use crate::model::plate::Resolution;
 use crate::model::scene::{Freed, Scene, SceneError, SpeedRange, scene_at};
 use crate::stability::ChosenBasis;
 
-use super::demands::Progress;
 use super::error::PlaceError;
 use super::neighbours::Neighbours;
 use super::outcome::{Computed, IDLE};

@@ -37,19 +37,19 @@ impl GapDemands {
     /// [`RefusedValue`] if no guide is one-sided, or a number is invalid.
     pub fn new(
         scene: &Scene,
-        amplitude_mm: Option<f64>,
-        max_deviation_mm: Option<f64>,
+        amplitude_m: Option<f64>,
+        max_deviation_m: Option<f64>,
     ) -> Result<Option<Self>, RefusedValue> {
-        if amplitude_mm.is_none() && max_deviation_mm.is_none() {
+        if amplitude_m.is_none() && max_deviation_m.is_none() {
             return Ok(None);
         }
         let options = gap::Options {
-            rpm: None,
-            max_deviation_mm,
+            max_deviation_m,
+            ..gap::Options::default()
         };
         Ok(Some(GapDemands {
-            case: GapCase::new(scene, &options, amplitude_mm)?,
-            max_deflection_m: max_deviation_mm.map(|mm| 1e-3 * mm),
+            case: GapCase::new(scene, &options, amplitude_m)?,
+            max_deflection_m: max_deviation_m,
         }))
     }
 }
@@ -205,22 +205,6 @@ impl Options {
         self.tolerances.checked()?;
         Ok(self)
     }
-}
-
-/// Progress callback.
-pub type Progress<'a> = &'a (dyn Fn(Step) + Sync);
-
-/// Progress of a search.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Step {
-    /// Name of the step.
-    pub what: &'static str,
-    /// Number of finished saws of the step.
-    pub done: usize,
-    /// Number of all saws of the step.
-    pub of: usize,
-    /// Highest value of the goal in the worst case of the tolerances among the saws of this basis that keep the limits.
-    pub best_rpm: Option<f64>,
 }
 
 #[cfg(test)]

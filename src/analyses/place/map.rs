@@ -1,9 +1,9 @@
 //! Map of the goal over two of the freed numbers.
 
+use crate::analyses::door::Progress;
 use crate::model::evenly_spaced;
 use crate::model::scene::Quantity;
 
-use super::demands::Progress;
 use super::report::{GoalMap, Outcome};
 use super::search::{Search, Tried};
 

@@ -36,6 +36,7 @@ mod neighbours;
 mod outcome;
 mod outline;
 mod report;
+mod request;
 mod search;
 mod worst_case;
 
@@ -46,12 +47,13 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 use rayon::prelude::*;
 
 use crate::analyses::campbell::{InstabilityBand, statement};
+use crate::analyses::door::Progress;
 use crate::model::scene::{Freed, Parted, Scene, SceneError, effective, rpm};
 use crate::modes::Cancellation;
 use crate::stability::ChosenBasis;
 
 use choice::{Choice, Weighed, basis_of_all, settle};
-pub use demands::{Demands, GapDemands, Options, Progress, Step, Tolerances};
+pub use demands::{Demands, GapDemands, Options, Tolerances};
 pub use error::PlaceError;
 use map::Mapped;
 use neighbours::Neighbours;
@@ -60,6 +62,7 @@ pub use report::{
     FragileOptimum, FrontSaw, Goal, GoalMap, Neighbour, Outcome, PlaceCertificate, PlaceReport,
     PlacedParameter,
 };
+pub use request::{GoalName, Request};
 use search::{Search, Tried, cheapest};
 
 /// Tolerance that determines the basis of the coarse search. The best saws are compared and refined with the

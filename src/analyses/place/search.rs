@@ -14,10 +14,10 @@ use std::sync::{Mutex, MutexGuard, PoisonError};
 
 use rayon::prelude::*;
 
+use crate::analyses::door::Step;
 use crate::model::scene::{Freed, SceneFile, rpm, scene_at, spread};
 use crate::modes::Cancellation;
 
-use super::demands::Step;
 use super::outcome::{Computed, Question, REFUSED};
 
 /// The result of a saw, or the reason why it could not be computed (`None` if there is no such saw).

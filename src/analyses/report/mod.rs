@@ -9,12 +9,14 @@
 mod change;
 mod decisive_speed;
 mod error;
+mod options;
 mod outline;
 mod pad;
 
 pub use change::Change;
 pub use decisive_speed::{DecidedSpeed, DecisiveSpeed};
 pub use error::DesignError;
+pub use options::Options;
 pub(crate) use outline::outline;
 pub use pad::LoadedPad;
 
@@ -26,15 +28,6 @@ use super::gap::{self, GapReport, gap};
 use super::response::{self, ResponseReport};
 use crate::model::scene::{Scene, SceneFile};
 use crate::stability::Analysis;
-
-/// Words on the page, which influence no number.
-#[derive(Debug, Clone, Default, PartialEq)]
-pub struct Options {
-    /// For whom the report is.
-    pub customer: Option<String>,
-    /// Its date.
-    pub date: Option<String>,
-}
 
 /// Report of a saw for a decision (`design.json`).
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]

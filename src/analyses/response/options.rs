@@ -1,16 +1,44 @@
 //! The speed and the range of the frequency response.
 
-use crate::model::scene::{RefusedValue, SpeedRange, rad_per_s, rpm, speed_rad_per_s};
+use schemars::JsonSchema;
+use serde::Deserialize;
+
+use super::{ResponseError, ResponseReport, response};
+use crate::analyses::door::{CommandError, CommandOptions, Progress};
+use crate::model::scene::{RefusedValue, Scene, SpeedRange, rad_per_s, rpm, speed_rad_per_s};
 use crate::page::text::shown;
 
-/// Options of [`response`](super::response()).
-#[derive(Debug, Clone, Copy, Default, PartialEq)]
+/// Computes the steady state over the speed for the excitation of the blocks side_force and response of the scene, or for
+/// a side force of 1 N. For the response between points of one's own at one speed see Matrices.response.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields, default)]
 pub struct Options {
-    /// Speed of the frequency response; by default the operating speed. Without a speed within the sweep there is no
-    /// frequency response.
+    /// Speed of the frequency response from the side force to the probe, within the sweep; by default the operating speed.
     pub rpm: Option<f64>,
-    /// Largest frequency of the frequency response; by default the frequency up to which the chart is complete.
+    /// Largest frequency of that; by default that up to which the diagram is complete.
+    #[schemars(extend("x-option" = "to-frequency"))]
     pub to_hz: Option<f64>,
+}
+
+impl CommandOptions for Options {
+    type Report = ResponseReport;
+    const COMMAND: &str = "response";
+    const METHOD: &str = "run_response";
+
+    fn compute(&self, scene: &Scene, _: Progress<'_>) -> Result<ResponseReport, CommandError> {
+        Ok(response(scene, self)?)
+    }
+}
+
+impl From<ResponseError> for CommandError {
+    fn from(error: ResponseError) -> Self {
+        match error {
+            ResponseError::Refused(source) => source.into(),
+            ResponseError::Scene(source) => source.into(),
+            ResponseError::Analysis(source) => source.into(),
+            ResponseError::Spectrum(source) => source.into(),
+        }
+    }
 }
 
 impl Options {

@@ -6,9 +6,11 @@
 
 pub(crate) mod chart;
 pub(crate) mod map_chart;
+mod options;
 mod outline;
 mod report;
 
+pub use options::Options;
 pub(crate) use outline::outline;
 pub use report::{ResponseMap, RunUpBand, RunUpReport, RunUpStretching};
 

@@ -166,14 +166,23 @@ pub(super) fn limits(file: &LimitsFile, scene: &Scene) -> Result<Limits, StudyEr
 pub(super) fn gap(file: &GapFile, scene: &Scene) -> Result<GapCase, StudyError> {
     let options = gap::Options {
         rpm: file.rpm,
-        max_deviation_mm: file.max_deviation_mm,
+        max_deviation_m: file.max_deviation_mm.map(|mm| 1e-3 * mm),
+        ..gap::Options::default()
+    };
+    let in_mm = |key, given: Option<f64>| {
+        let allowed = "above 0 and at most 1000";
+        let remedy = "give it in millimetres, such as 0.1";
+        RefusedValue::new(key, given.unwrap_or_default(), allowed, remedy)
     };
     let of_study = |refused: RefusedValue| match refused.key.as_str() {
-        "rpm" | "max_deviation_mm" | "amplitude_mm" => RefusedValue {
-            key: format!("gap.{}", refused.key),
+        "rpm" => RefusedValue {
+            key: "gap.rpm".into(),
             ..refused
         },
+        "max_deviation_m" => in_mm("gap.max_deviation_mm", file.max_deviation_mm),
+        "amplitude_m" => in_mm("gap.amplitude_mm", file.amplitude_mm),
         _ => refused,
     };
-    Ok(GapCase::new(scene, &options, file.amplitude_mm).map_err(of_study)?)
+    let amplitude_m = file.amplitude_mm.map(|mm| 1e-3 * mm);
+    Ok(GapCase::new(scene, &options, amplitude_m).map_err(of_study)?)
 }

@@ -25,6 +25,7 @@ mod delayed_saw;
 mod error;
 mod lobes;
 mod modes;
+mod options;
 mod outline;
 mod report;
 mod roots;
@@ -37,6 +38,7 @@ pub(crate) use outline::outline;
 use std::f64::consts::TAU;
 
 pub use self::error::WashboardError;
+pub use self::options::Options;
 pub use self::report::{Lobes, WashboardMode, WashboardReport};
 
 use self::basis::Motions;

@@ -2,29 +2,30 @@
 
 use serde_json::Value;
 
-use crate::model::scene::{RefusedValue, Scene, SceneFile, typical_block};
+use crate::analyses::door::CommandError;
+use crate::model::scene::{Scene, SceneError, SceneFile, typical_block};
 
-/// Returns the block of a scene that a command needs. If it is missing, prints a typical one on the error stream.
-pub fn pasted<T>(scene: &Scene, needed: Result<T, RefusedValue>) -> anyhow::Result<T> {
-    needed.map_err(|refused| {
-        let (block, place) = match refused.key.as_str() {
-            "cut" => (cut_block(scene.file()), "the scene"),
-            "runup" => (
-                block("runup", &typical_block::runup(scene.file())),
-                "the scene",
-            ),
-            "cut.washboarding" => {
-                let washboarding = block("washboarding", &typical_block::washboarding());
-                (washboarding, "its block \"cut\"")
-            }
-            _ => return refused.into(),
-        };
-        // The block is printed separately, because the message of an error has only one line.
-        eprintln!(
-            "{block}\n\nInsert this after the opening brace of {place}, with your own numbers.\n"
-        );
-        refused.into()
-    })
+/// Prints a typical block on the error stream if a scene was refused because it lacks one.
+pub fn say_if_missing(scene: &Scene, error: &CommandError) {
+    let (CommandError::Refused(refused) | CommandError::Scene(SceneError::Value(refused))) = error
+    else {
+        return;
+    };
+    let file = scene.file();
+    let (block, place) = match refused.key.as_str() {
+        _ if !refused.is_missing() => return,
+        "cut" => (cut_block(file), "the scene"),
+        "runup" => (block("runup", &typical_block::runup(file)), "the scene"),
+        "cut.washboarding" => {
+            let washboarding = block("washboarding", &typical_block::washboarding());
+            (washboarding, "its block \"cut\"")
+        }
+        _ => return,
+    };
+    // The block is printed separately, because the message of an error has only one line.
+    eprintln!(
+        "{block}\n\nInsert this after the opening brace of {place}, with your own numbers.\n"
+    );
 }
 
 /// The key `cut` of a typical cut, with the number of teeth if the blade lacks it.

@@ -3,10 +3,9 @@
 use std::io::Write;
 use std::path::{Path, PathBuf};
 
-use crate::analyses::commands::{Argument, CALLS, CommandReport};
+use crate::analyses::commands::CommandReport;
 use crate::model::scene::{
-    Accuracy, Reading, RefusedValue, SCENE_TEXT, Scene, SceneError, Setting, number_in, numbers_of,
-    quantity,
+    Accuracy, Reading, RefusedValue, SCENE_TEXT, Scene, SceneError, Setting, number_in, quantity,
 };
 use crate::page::text::{
     FileError, Kind, printable, printable_line, read_path, read_stream, shown,
@@ -114,11 +113,6 @@ fn tolerance_help() -> String {
     )
 }
 
-/// The meaning of an argument of a command, for the help of its option.
-pub const fn words(command: &str, name: &str) -> &'static str {
-    Argument::of(command, name).about
-}
-
 /// Reads a scene from a file, or from standard input where the path is `-`.
 pub fn read_scene(path: &Path) -> anyhow::Result<Scene> {
     let text = read_text(path, SCENE_TEXT)?;
@@ -167,15 +161,9 @@ pub fn refused(path: &Path, error: anyhow::Error) -> anyhow::Error {
     error.context(format!("{name} was refused"))
 }
 
-/// The error of an option with its name on the command line, `--max-deviation` for `max_deviation_mm`.
-pub fn of_option(refused: RefusedValue) -> anyhow::Error {
-    let name = refused.key.replace("_mm", "_m");
-    let mut all = CALLS.iter().flat_map(|call| call.arguments);
-    let option = all.find(|argument| argument.name == name && !argument.option.is_empty());
-    let key = match option {
-        Some(argument) => format!("--{}", argument.option),
-        None => format!("--{}", refused.key.replace('_', "-")),
-    };
+/// The error of an option with its name on the command line.
+pub fn of_option(option: &str, refused: RefusedValue) -> anyhow::Error {
+    let key = format!("--{option}");
     RefusedValue { key, ..refused }.into()
 }
 
@@ -204,16 +192,6 @@ pub fn rpm(text: &str) -> Result<f64, String> {
     read.map_err(|refused| refused.to_string())
 }
 
-/// Rotation speeds, in rpm.
-#[derive(Debug, Clone)]
-pub struct Speeds(pub Vec<f64>);
-
-/// Parses rotation speeds, in rpm, between commas.
-pub fn speeds(text: &str) -> Result<Speeds, String> {
-    let read = numbers_of("it", SPEED, text);
-    read.map(Speeds).map_err(|refused| refused.to_string())
-}
-
 /// The number of a scene whose usual range decides how the text of a speed is read.
 const SPEED: &str = "operating_rpm";
 
@@ -222,32 +200,9 @@ pub fn hertz(text: &str) -> Result<f64, String> {
     in_unit("Hz", text)
 }
 
-/// Parses a velocity, in m/s.
-pub fn metres_per_second(text: &str) -> Result<f64, String> {
-    in_unit("m/s", text)
-}
-
-/// Parses an angle, in degrees.
-pub fn degrees(text: &str) -> Result<f64, String> {
-    in_unit("deg", text)
-}
-
 /// Parses a share, as a number or in percent.
 pub fn share(text: &str) -> Result<f64, String> {
     in_unit("", text)
-}
-
-/// Parses a length, in metres.
-pub fn metres(text: &str) -> Result<f64, String> {
-    in_unit("m", text)
-}
-
-/// Parses a small length, in millimetres. It needs its unit, because without one it could be in metres, as in a scene, or in millimetres.
-pub fn millimetres(text: &str) -> Result<f64, String> {
-    if text.trim().ends_with(|c: char| c.is_ascii_digit()) {
-        return Err("it must be a length with its unit; write it like 0.1mm".to_owned());
-    }
-    in_unit("mm", text)
 }
 
 /// Parses the whole number of an option.
@@ -311,6 +266,21 @@ impl Folder {
 }
 
 impl Output {
+    /// Whether a folder is named.
+    pub fn has_folder(&self) -> bool {
+        self.folder.out.is_some()
+    }
+
+    /// Prints a report.
+    pub fn say<R: CommandReport + Serialize>(&self, report: &R) -> anyhow::Result<()> {
+        if self.json {
+            say(&format!("{}\n", serde_json::to_string_pretty(report)?))?;
+        } else {
+            say(&self.words(report))?;
+        }
+        Ok(())
+    }
+
     /// Opens the output folder, see [`OutputFolder::open`].
     pub fn folder(&self) -> anyhow::Result<OutputFolder> {
         self.folder.open()

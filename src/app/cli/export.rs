@@ -53,7 +53,7 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<()> {
         .basis
         .map(checked)
         .transpose()
-        .map_err(of_option)?;
+        .map_err(|refused| of_option("basis", refused))?;
     let folder = arguments.common.folder()?;
     let plate = match asked {
         Some(resolution) => Plate::new(&scene, resolution),

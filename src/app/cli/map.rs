@@ -1,16 +1,16 @@
 //! `sawflutter map`.
 
+use crate::analyses::door::named_bounds;
 use crate::analyses::map::{Map, Options, Range};
 use crate::analyses::study::{Log, Rows, Shard, StudyError};
 use anyhow::Context;
 use clap::Args;
 
-use super::bounds::range;
 use super::common::{Changes, Output, of_option, read_scene};
 use super::page::Page;
 use super::study::{compute, print_part, shard};
 use super::{common, scheduler};
-use crate::model::scene::Scene;
+use crate::model::scene::{NamedBounds, Scene};
 
 pub const EXAMPLES: &str = "\
 Examples:
@@ -33,11 +33,11 @@ pub struct Arguments {
     /// Scene to look at, - for standard input; without it, the built-in guided spline saw
     scene: Option<std::path::PathBuf>,
     /// The number along the horizontal axis, by its path in the scene, and its range
-    #[arg(long, value_name = "PATH=FROM..TO")]
-    x: String,
+    #[arg(long, value_name = "PATH=FROM..TO", value_parser = named_bounds)]
+    x: NamedBounds,
     /// The number along the vertical axis; without it, the speed
-    #[arg(long, value_name = "PATH=FROM..TO")]
-    y: Option<String>,
+    #[arg(long, value_name = "PATH=FROM..TO", value_parser = named_bounds)]
+    y: Option<NamedBounds>,
     /// Points along the axis of a number; by default 41, or 17 along each of two
     #[arg(long, value_name = "COUNT", value_parser = common::count::<usize>)]
     points: Option<usize>,
@@ -89,23 +89,30 @@ fn planned(arguments: &Arguments) -> anyhow::Result<Map> {
         None => Scene::paper(),
     };
     let scene = arguments.changes.applied(typed)?;
-    let named = |option: &str, text: &str| -> anyhow::Result<Range> {
-        let (path, bounds) = range(option, text)?;
+    let named = |option: &str, (path, bounds): &NamedBounds| -> anyhow::Result<Range> {
         let (from, to) = bounds.with_context(|| {
-            format!("{option} {text} has no range; write it like {path}=FROM..TO")
+            format!("{option} {path} has no range; write it like {path}=FROM..TO")
         })?;
+        let path = path.clone();
         Ok(Range { path, from, to })
     };
-    let y = arguments.y.as_deref();
+    let y = arguments.y.as_ref();
     let options = Options {
         x: named("--x", &arguments.x)?,
-        y: y.map(|text| named("--y", text)).transpose()?,
+        y: y.map(|range| named("--y", range)).transpose()?,
         points: arguments.points,
         rpm: arguments.rpm,
         to_rpm: arguments.to,
     };
     Map::new(scene, &options).map_err(|error| match error {
-        StudyError::Value(refused) => of_option(refused),
+        StudyError::Value(refused) => {
+            let option = match refused.key.as_str() {
+                "to_rpm" => "to".to_owned(),
+                "operating_rpm" => "rpm".to_owned(),
+                key => key.to_owned(),
+            };
+            of_option(&option, refused)
+        }
         StudyError::Scene { key, source } => {
             anyhow::Error::from(source).context(format!("--{key} was refused"))
         }

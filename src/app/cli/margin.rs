@@ -5,10 +5,10 @@ use std::path::PathBuf;
 use clap::Args;
 use serde_json::json;
 
-use crate::model::scene::Freed;
+use crate::analyses::door::named_bounds;
+use crate::model::scene::{Freed, NamedBounds};
 
-use super::bounds::named_bounds;
-use super::common::{Folder, count, read_scene, say, share, words};
+use super::common::{Folder, count, read_scene, say, share};
 use super::python::Need;
 
 pub const EXAMPLES: &str = "\
@@ -41,8 +41,10 @@ pub struct Arguments {
     /// Table of peaks
     #[arg(value_name = "PEAKS")]
     peaks: PathBuf,
-    #[arg(long, value_name = "PATH[=FROM..TO]", help = const { words("fit", "free") })]
-    free: Vec<String>,
+    /// Number to fit, or several, by its path in the scene, with or without bounds; by default radius and stiffness of
+    /// every guide, and the angles between several guides
+    #[arg(long, value_name = "PATH[=FROM..TO]", value_parser = named_bounds)]
+    free: Vec<NamedBounds>,
     /// Multiples of the rotation speed at which peaks may be
     #[arg(long, value_name = "ORDER", num_args = 1.., default_values_t = [1.0, 2.0], value_parser = share)]
     orders: Vec<f64>,
@@ -59,7 +61,7 @@ pub struct Arguments {
 /// Samples the saws, writes the files and prints the text.
 pub fn run(arguments: &Arguments) -> anyhow::Result<()> {
     let scene = read_scene(&arguments.scene)?;
-    let freed = Freed::to_fit(&scene, &named_bounds(&arguments.free)?)?;
+    let freed = Freed::to_fit(&scene, &arguments.free)?;
     let free: Vec<_> = freed
         .iter()
         .map(|number| (number.parameter.path(), number.from, number.to))

@@ -1,49 +1,40 @@
 //! The command line: arguments become calls of the library, and their results files and text.
 
 mod analyze;
-mod assumption;
 mod batch;
 mod block_text;
-mod bounds;
-mod check;
 mod colour;
 mod common;
 mod compare;
-mod cut;
-mod deflect;
+mod examples;
 #[cfg(feature = "explore")]
 mod explore;
 mod export;
-mod fit;
-mod gap;
 mod keys;
 mod map;
 mod margin;
+mod one_scene;
 mod output;
 mod page;
 mod pictures;
-mod place;
 mod progress;
 mod python;
 mod records;
-mod report;
-mod response;
-mod runup;
 mod scheduler;
 mod schema;
-mod shorthand;
 mod study;
 mod tradeoff;
-mod washboard;
 
 use std::ffi::OsString;
 use std::path::Path;
 
+use crate::analyses::{check, cut, deflect, fit, gap, place, report, response, runup, washboard};
 use crate::page::text::{printable, printable_line};
 use clap::{CommandFactory, Parser, Subcommand};
 
 use self::common::in_words;
 pub use self::keys::listed as keys;
+use self::one_scene::Given;
 
 /// Stability of thin, fast, guided circular saws: Campbell diagram, critical
 /// speeds, divergence and flutter bands, and a plain verdict.
@@ -63,36 +54,36 @@ enum Command {
     #[command(after_help = analyze::EXAMPLES)]
     Analyze(analyze::Arguments),
     /// Report a saw on one page: answer, deviation, margins, what to change; report.html, design.json
-    #[command(after_help = report::EXAMPLES)]
-    Report(report::Arguments),
+    #[command(after_help = examples::REPORT)]
+    Report(Given<report::Options>),
     /// Cut wood: is the saw stable before, during and after? cut.json and figures
-    #[command(after_help = cut::EXAMPLES)]
-    Cut(cut::Arguments),
+    #[command(after_help = examples::CUT)]
+    Cut(Given<cut::Options>),
     /// Run up under a lateral force: deflection and response; runup.json and figures
-    #[command(after_help = runup::EXAMPLES)]
-    Runup(runup::Arguments),
+    #[command(after_help = examples::RUNUP)]
+    Runup(Given<runup::Options>),
     /// Amplitude over speed: side force, a blade not flat or not balanced, teeth; response.json, figures
-    #[command(after_help = response::EXAMPLES)]
-    Response(response::Arguments),
+    #[command(after_help = examples::RESPONSE)]
+    Response(Given<response::Options>),
     /// How far does the blade lean, and at which speeds does it jump? deflect.json and a figure
-    #[command(after_help = deflect::EXAMPLES)]
-    Deflect(deflect::Arguments),
+    #[command(after_help = examples::DEFLECT)]
+    Deflect(Given<deflect::Options>),
     /// How tight may the guides be? Chart over the amplitude, deflection over the gap; gap.json, a figure
-    #[command(after_help = gap::EXAMPLES)]
-    Gap(gap::Arguments),
+    #[command(after_help = examples::GAP)]
+    Gap(Given<gap::Options>),
     /// Does washboarding grow: teeth that cut the wavy surface of the last passage?
-    #[command(after_help = washboard::EXAMPLES)]
-    Washboard(washboard::Arguments),
+    #[command(after_help = examples::WASHBOARD)]
+    Washboard(Given<washboard::Options>),
     /// Compare a saw with limits: exit code 0 if it keeps them, 1 if not
-    #[command(after_help = check::EXAMPLES)]
-    Check(check::Arguments),
+    #[command(after_help = examples::CHECK)]
+    Check(Given<check::Options>),
     /// Change a saw by hand on a page in the browser, which computes its chart again
     #[cfg(feature = "explore")]
     #[command(after_help = explore::EXAMPLES)]
     Explore(explore::Arguments),
     /// Fit guides, density or other numbers to measured frequencies; fit.json, a scene, figures
-    #[command(after_help = fit::EXAMPLES)]
-    Fit(fit::Arguments),
+    #[command(after_help = examples::FIT)]
+    Fit(Given<fit::Request>),
     /// Read records of a measured saw, with the Python package: peaks, rows for fit, figures
     #[command(after_help = records::EXAMPLES)]
     Records(records::Arguments),
@@ -100,8 +91,8 @@ enum Command {
     #[command(after_help = margin::EXAMPLES)]
     Margin(margin::Arguments),
     /// Put the guides where flutter comes latest; place.json, a scene, a map
-    #[command(after_help = place::EXAMPLES)]
-    Place(place::Arguments),
+    #[command(after_help = examples::PLACE)]
+    Place(Given<place::Request>),
     /// Vary a saw within tolerances or over a grid: quantiles and probability of passing
     #[command(after_help = study::EXAMPLES)]
     Study(study::Arguments),
@@ -191,24 +182,24 @@ fn command(command: Option<Command>) -> anyhow::Result<bool> {
     match command {
         None => analyze::run(&analyze::Arguments::default()),
         Some(Command::Analyze(arguments)) => analyze::run(&arguments),
-        Some(Command::Cut(arguments)) => cut::run(&arguments),
-        Some(Command::Runup(arguments)) => runup::run(&arguments),
-        Some(Command::Report(arguments)) => report::run(&arguments),
-        Some(Command::Response(arguments)) => response::run(&arguments),
-        Some(Command::Deflect(arguments)) => deflect::run(&arguments),
-        Some(Command::Gap(arguments)) => gap::run(&arguments),
-        Some(Command::Washboard(arguments)) => washboard::run(&arguments),
+        Some(Command::Cut(arguments)) => return one_scene::run(&arguments),
+        Some(Command::Runup(arguments)) => return one_scene::run(&arguments),
+        Some(Command::Report(arguments)) => return one_scene::run(&arguments),
+        Some(Command::Response(arguments)) => return one_scene::run(&arguments),
+        Some(Command::Deflect(arguments)) => return one_scene::run(&arguments),
+        Some(Command::Gap(arguments)) => return one_scene::run(&arguments),
+        Some(Command::Washboard(arguments)) => return one_scene::run(&arguments),
         #[cfg(feature = "explore")]
         Some(Command::Explore(arguments)) => explore::run(&arguments),
-        Some(Command::Fit(arguments)) => fit::run(&arguments),
+        Some(Command::Fit(arguments)) => return one_scene::run(&arguments),
         Some(Command::Records(arguments)) => records::run(&arguments),
         Some(Command::Margin(arguments)) => margin::run(&arguments),
         Some(Command::Map(arguments)) => map::run(&arguments),
         Some(Command::Compare(arguments)) => compare::run(&arguments),
         Some(Command::Tradeoff(arguments)) => tradeoff::run(&arguments),
         Some(Command::Export(arguments)) => export::run(&arguments),
-        Some(Command::Place(arguments)) => return place::run(&arguments),
-        Some(Command::Check(arguments)) => return check::run(&arguments),
+        Some(Command::Place(arguments)) => return one_scene::run(&arguments),
+        Some(Command::Check(arguments)) => return one_scene::run(&arguments),
         Some(Command::Study(arguments)) => study::run(&arguments),
         Some(Command::Keys(arguments)) => keys::run(&arguments),
         Some(Command::Schema(arguments)) => schema::run(&arguments),
@@ -227,7 +218,6 @@ fn is_closed_pipe(error: &anyhow::Error) -> bool {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::analyses::commands::{ArgumentKind, CALLS};
 
     /// The commands of examples, in words: continued lines are joined, pipes are split, and comments and
     /// redirections are removed.
@@ -285,58 +275,10 @@ mod tests {
         }
     }
 
-    /// Options of every command: the scene and its changes, and where the results go.
-    const SHARED: [&str; 10] = [
-        "scene",
-        "set",
-        "accuracy",
-        "tolerance",
-        "out",
-        "json",
-        "details",
-        "report",
-        "quiet",
-        "help",
-    ];
-
-    /// The methods of Python are made from the table, so that they take whatever the command line takes.
+    /// No option of a command has the name of one that every command has, and every default is read.
     #[test]
-    fn options_are_those_of_the_table() {
-        let mut program = Arguments::command();
-        program.build();
-        for call in CALLS {
-            let command = program.find_subcommand(call.command).unwrap();
-            let mut options: Vec<String> = command
-                .get_arguments()
-                .map(|option| {
-                    option
-                        .get_long()
-                        .map_or(option.get_id().to_string(), str::to_owned)
-                })
-                .filter(|name| !SHARED.contains(&&**name))
-                .collect();
-            let arguments = || call.arguments.iter().filter(|of| !of.option.is_empty());
-            let mut listed: Vec<&str> = arguments().map(|of| of.option).collect();
-            options.sort_unstable();
-            listed.sort_unstable();
-            assert_eq!(options, listed, "{}", call.command);
-            for argument in arguments() {
-                let default = match argument.kind {
-                    ArgumentKind::Number(number) => number.map(|number| number.to_string()),
-                    ArgumentKind::Count(count) => Some(count.to_string()),
-                    ArgumentKind::Word(words) => words.first().map(ToString::to_string),
-                    _ => None,
-                };
-                let mut of_command = command.get_arguments();
-                let option = of_command.find(|option| {
-                    option.get_long() == Some(argument.option) || option.get_id() == argument.option
-                });
-                let given = option.unwrap().get_default_values().first();
-                let given = given.filter(|_| argument.kind != ArgumentKind::Flag);
-                let given = given.map(|value| value.to_string_lossy().into_owned());
-                assert_eq!(given, default, "{} {}", call.command, argument.name);
-            }
-        }
+    fn no_two_options_have_one_name() {
+        Arguments::command().debug_assert();
     }
 
     #[test]

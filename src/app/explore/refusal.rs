@@ -5,6 +5,7 @@ use serde_json::Value;
 
 use super::fields::Units;
 use super::wording::in_field_units;
+use crate::analyses::door::CommandError;
 use crate::model::scene::{RefusedValue, SceneError};
 use crate::modes::SpectrumError;
 use crate::stability::AnalysisError;
@@ -42,6 +43,16 @@ impl From<SceneError> for Refusal {
                 ..Refusal::of(&error)
             },
             _ => Refusal::of(&error),
+        }
+    }
+}
+
+impl From<CommandError> for Refusal {
+    fn from(error: CommandError) -> Self {
+        match error {
+            CommandError::Refused(refused) => refused.into(),
+            CommandError::Set { source, .. } | CommandError::Scene(source) => source.into(),
+            CommandError::Unanswered { .. } | CommandError::Failed(_) => Refusal::of(&error),
         }
     }
 }

@@ -2,59 +2,40 @@
 //! figures.
 
 use serde::{Deserialize, Serialize};
+use serde_json::{Map, Value};
 
-use super::fields::{Field, Units};
+use super::fields::Units;
 use super::meter::Meter;
 use super::refusal::Refusal;
 use super::tolerances::{Tolerance, study as study_of};
-use crate::analyses::commands::CommandReport;
-use crate::analyses::cut::{self, CutReport};
-use crate::analyses::fit::{self, FitReport, Measurement};
-use crate::analyses::gap::{self, GapError, GapReport};
-use crate::analyses::map::{self, MapReport, Range};
-use crate::analyses::place::{self, Demands, PlaceReport};
-use crate::analyses::response::{self, ResponseError, ResponseReport};
-use crate::analyses::runup::{self, RunUpReport};
+use crate::analyses::commands::{Call, CommandReport, Ran};
+use crate::analyses::door::{Argument, CommandError, Step};
+use crate::analyses::map::{self, Range};
 use crate::analyses::scene_number;
-use crate::analyses::study::{Saw, Study, StudyReport};
-use crate::analyses::washboard::{self, WashboardError, WashboardReport};
-use crate::model::scene::{Freed, Quantity, Scene, SceneError, SceneFile};
-use crate::motion::transient::TransientError;
+use crate::analyses::study::{Saw, Study};
+use crate::model::scene::{Freed, Quantity, RefusedValue, Scene, SceneError, SceneFile};
 use crate::page::figure::ChartData;
 use crate::page::outline::Outline;
 
-/// Computes the answer to a request as JSON.
-type Work = fn(Scene, &Asked, &Meter<'_>) -> Result<String, Refusal>;
-
-/// The commands of the program that are tasks.
-const TASKS: [(&str, Work); 9] = [
-    (CutReport::COMMAND.name, cut),
-    (RunUpReport::COMMAND.name, runup),
-    (WashboardReport::COMMAND.name, washboard),
-    (FitReport::COMMAND.name, fit),
-    (PlaceReport::COMMAND.name, place),
-    (StudyReport::COMMAND.name, study),
-    (ResponseReport::COMMAND.name, response),
-    (MapReport::COMMAND.name, map),
-    (GapReport::COMMAND.name, gap),
-];
-
-/// A command of the program: `fit` to the scene's own measured frequencies, `study` with tolerances, `map` within the
-/// usual bounds of one or two numbers, and others as on the command line.
+/// A command of the program: `study` with tolerances, `map` within the usual bounds of one or two numbers, and those of one saw.
 #[derive(Clone, Copy)]
-pub struct Task(Work);
+pub enum Task {
+    /// A command of one saw.
+    One(&'static Call),
+    /// A study.
+    Study,
+    /// A map.
+    Map,
+}
 
 /// A request for a task.
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Asked {
-    scene: serde_json::Value,
-    /// For a placement: maximize the window without instability instead of the flutter speed.
+    scene: Value,
+    /// For a command of one saw: texts of its arguments by their names; an empty one is left out.
     #[serde(default)]
-    window: bool,
-    /// For a placement: lower limit of the first critical speed, as typed; empty for none.
-    #[serde(default)]
-    min_critical: String,
+    options: Map<String, Value>,
     /// For a study: the tolerances.
     #[serde(default)]
     tolerances: Vec<Tolerance>,
@@ -67,12 +48,12 @@ pub struct Asked {
 }
 
 #[derive(Serialize)]
-struct Answer<'a, R> {
+struct Answer<'a> {
     /// Summary as printed by the program.
     summary: String,
     /// The summary in its parts.
     outline: Outline,
-    report: &'a R,
+    report: Value,
     /// Figures by file name, as SVG to save and as data to draw; null if the figure is no chart.
     figures: Vec<(&'static str, String, Option<ChartData>)>,
     /// The resulting scene of a fit or a placement.
@@ -82,8 +63,11 @@ struct Answer<'a, R> {
 impl Task {
     /// Returns the task with the name of its command.
     pub fn named(name: &str) -> Option<Self> {
-        let own = TASKS.iter().find(|(command, _)| *command == name);
-        own.map(|(_, work)| Task(*work))
+        match name {
+            "study" => Some(Task::Study),
+            "map" => Some(Task::Map),
+            _ => Call::named(name).map(Task::One),
+        }
     }
 
     /// Runs a request; returns JSON.
@@ -94,12 +78,66 @@ impl Task {
         let asked: Asked = serde_json::from_str(asked).map_err(|error| Refusal::of(&error))?;
         let asked = Asked { units, ..asked };
         let scene = Scene::from_json(&asked.scene.to_string())?;
-        (self.0)(scene, &asked, meter)
+        match self {
+            Task::One(call) => one(call, scene, &asked.options, meter),
+            Task::Study => study(scene, &asked, meter),
+            Task::Map => map(scene, &asked, meter),
+        }
     }
 }
 
-fn answer<R: CommandReport + Serialize>(
-    report: &R,
+fn one(
+    call: &Call,
+    scene: Scene,
+    texts: &Map<String, Value>,
+    meter: &Meter<'_>,
+) -> Result<String, Refusal> {
+    let progress = |step: Step| meter.show_with_best(step.what, step.done, step.of, step.best_rpm);
+    let Ran {
+        report,
+        json,
+        scene,
+        ..
+    } = call
+        .run(scene, read(&call.arguments, texts)?, &progress)
+        .map_err(|error| in_words(&call.arguments, error))?;
+    answer(&*report, json, scene.as_ref())
+}
+
+/// A refusal that says what an argument means in place of its name.
+fn in_words(arguments: &[Argument], error: CommandError) -> Refusal {
+    match error {
+        CommandError::Refused(refused) if !refused.is_missing() => {
+            match arguments.iter().find(|of| of.name == refused.key) {
+                Some(argument) => {
+                    let key = argument.about.clone();
+                    Refusal::of(&RefusedValue { key, ..refused })
+                }
+                None => refused.into(),
+            }
+        }
+        other => other.into(),
+    }
+}
+
+/// The values of texts of arguments by their names.
+fn read(arguments: &[Argument], texts: &Map<String, Value>) -> Result<Map<String, Value>, Refusal> {
+    let mut given = Map::new();
+    for argument in arguments {
+        let text = texts.get(&argument.name).and_then(Value::as_str);
+        if let Some(text) = text.filter(|text| !text.trim().is_empty()) {
+            let value = argument.read(text).map_err(|said| {
+                Refusal::with_message(format!("{}: {said} (you gave {text:?})", argument.about))
+            })?;
+            given.insert(argument.name.clone(), value);
+        }
+    }
+    Ok(given)
+}
+
+fn answer(
+    report: &dyn CommandReport,
+    json: Value,
     scene: Option<&SceneFile>,
 ) -> Result<String, Refusal> {
     let figures = report
@@ -117,71 +155,17 @@ fn answer<R: CommandReport + Serialize>(
     let answer = Answer {
         summary,
         outline,
-        report,
+        report: json,
         figures,
         scene,
     };
     serde_json::to_string(&answer).map_err(|error| Refusal::of(&error))
 }
 
-fn refused(error: TransientError) -> Refusal {
-    Refusal::of(&error)
-}
-
-fn cut(scene: Scene, _: &Asked, meter: &Meter<'_>) -> Result<String, Refusal> {
-    let runs = scene.needed_cut()?.runs_at(&[])?;
-    let progress = |done, of| meter.show("points of the map", done, of);
-    let report = cut::cut(&scene, &runs, &progress).map_err(refused)?;
-    answer(&report, None)
-}
-
-fn runup(scene: Scene, _: &Asked, meter: &Meter<'_>) -> Result<String, Refusal> {
-    scene.needed_runup()?;
-    let progress = |done, of| meter.show("steps", done, of);
-    let report = runup::runup(&scene, &progress).map_err(refused)?;
-    answer(&report, None)
-}
-
-fn washboard(scene: Scene, _: &Asked, meter: &Meter<'_>) -> Result<String, Refusal> {
-    let cut = scene.needed_washboarding()?;
-    let run = cut.at_rpm(scene.needed_operating_rpm(None)?)?;
-    let progress = |done, of| meter.show("speeds", done, of);
-    let report = washboard::washboard(&scene, &run, &progress)
-        .map_err(|error: WashboardError| Refusal::of(&error))?;
-    answer(&report, None)
-}
-
-fn fit(scene: Scene, _: &Asked, meter: &Meter<'_>) -> Result<String, Refusal> {
-    let measurement = Measurement::of_scene(scene.needed_measured()?);
-    let options = fit::Options::default().checked(&measurement)?;
-    let freed = Freed::to_fit(&scene, &[])?;
-    let progress = |done, of| meter.show("starts", done, of);
-    let report = fit::fit(&scene, &measurement, &freed, &options, &progress)
-        .map_err(|error| Refusal::of(&error))?;
-    answer(&report, Some(&report.scene))
-}
-
-const NO_LIMIT: &str = "The lower limit of the first critical speed must be above 0 rpm";
-
-fn place(scene: Scene, asked: &Asked, meter: &Meter<'_>) -> Result<String, Refusal> {
-    let around_rpm = if asked.window {
-        Some(scene.needed_operating_rpm(None)?)
-    } else {
-        None
-    };
-    let limit = match asked.min_critical.trim() {
-        "" => None,
-        text => Some(Field::read("operating_rpm", text, asked.units)?),
-    };
-    let demands = Demands::new(around_rpm, limit).map_err(|_| Refusal::with_message(NO_LIMIT))?;
-    let freed = Freed::to_place(&scene, &[])?;
-    let progress = |step: place::Step| {
-        meter.show_with_best(step.what, step.done, step.of, step.best_rpm);
-    };
-    let options = place::Options::default();
-    let report = place::place(&scene, &freed, &demands, &options, &progress)
-        .map_err(|error| Refusal::of(&error))?;
-    answer(&report, Some(&report.scene))
+/// The answer of a report that is not of one saw.
+fn answered<R: CommandReport + Serialize>(report: &R) -> Result<String, Refusal> {
+    let json = serde_json::to_value(report).map_err(|error| Refusal::of(&error))?;
+    answer(report, json, None)
 }
 
 fn study(scene: Scene, asked: &Asked, meter: &Meter<'_>) -> Result<String, Refusal> {
@@ -196,16 +180,7 @@ fn study(scene: Scene, asked: &Asked, meter: &Meter<'_>) -> Result<String, Refus
         meter.draw(|| so_far(saws));
     });
     let report = study.report(&saws).map_err(|error| Refusal::of(&error))?;
-    answer(&report, None)
-}
-
-fn response(scene: Scene, _: &Asked, _: &Meter<'_>) -> Result<String, Refusal> {
-    let report =
-        response::response(&scene, &response::Options::default()).map_err(|error| match error {
-            ResponseError::Refused(refused) => refused.into(),
-            other => Refusal::of(&other),
-        })?;
-    answer(&report, None)
+    answered(&report)
 }
 
 const NO_AXIS: &str = "A map needs one or two numbers of the scene";
@@ -233,14 +208,5 @@ fn map(scene: Scene, asked: &Asked, meter: &Meter<'_>) -> Result<String, Refusal
     };
     let progress = |done, of| meter.show("saws", done, of);
     let report = map::map(scene, &options, &progress).map_err(|error| Refusal::of(&error))?;
-    answer(&report, None)
-}
-
-fn gap(scene: Scene, _: &Asked, _: &Meter<'_>) -> Result<String, Refusal> {
-    let found = gap::gap(&scene, &gap::Options::default());
-    let report = found.map_err(|error| match error {
-        GapError::Refused(refused) => refused.into(),
-        other => Refusal::of(&other),
-    })?;
-    answer(&report, None)
+    answered(&report)
 }

@@ -5,7 +5,6 @@
 //! remedy. The name of a key contains its unit. [`Scene::edited`] is the only way to change a scene, and it
 //! validates again, so that every scene is valid.
 
-#[cfg(feature = "cli")]
 mod assumption;
 mod blade;
 mod constant_force;
@@ -50,7 +49,6 @@ mod spline;
 mod straight_edge;
 mod teeth_in_cut;
 mod thickness;
-#[cfg(any(feature = "cli", feature = "page"))]
 pub(crate) mod typical_block;
 mod unit;
 mod validation;
@@ -58,7 +56,6 @@ mod washboarding;
 mod wood;
 
 pub use crate::page::text::FileError;
-#[cfg(feature = "cli")]
 pub use assumption::{AssumedBlock, Assumption};
 pub(crate) use blade::RimMass;
 pub use blade::{Blade, BladeFile, Bore, InPlane, Material, Mount, RimFile};
@@ -94,8 +91,6 @@ pub use point::Polar;
 pub(crate) use profile::Profile;
 #[cfg(any(test, feature = "page"))]
 pub(crate) use quantities::QUANTITIES;
-#[cfg(feature = "cli")]
-pub(crate) use quantities::is_same;
 pub(crate) use quantities::{quantity, typical_value};
 pub use quantity::{Kind, Quantity, Typical};
 pub(crate) use refusal::Given;
@@ -110,7 +105,6 @@ pub use saw::Scene;
 pub use schema::json_schema;
 #[cfg(feature = "cli")]
 pub(crate) use schema::{Key, keys};
-#[cfg(any(feature = "page", feature = "cli"))]
 pub(crate) use setting::Reading;
 pub use setting::{Setting, number_in, number_of, numbers_of};
 pub use side_force::SideForceFile;

@@ -264,7 +264,7 @@ pub(crate) const fn quantity(path: &str) -> Quantity {
 }
 
 /// Whether two texts are equal, for constants.
-pub(crate) const fn is_same(one: &str, other: &str) -> bool {
+const fn is_same(one: &str, other: &str) -> bool {
     let (one, other) = (one.as_bytes(), other.as_bytes());
     let (mut k, mut same) = (0, one.len() == other.len());
     while same && k < one.len() {

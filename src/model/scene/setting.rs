@@ -24,6 +24,8 @@ enum Given {
     Number(f64),
     /// A word, such as `one_sided`.
     Word(String),
+    /// Yes or no.
+    Switch(bool),
 }
 
 /// Smallest Jaro–Winkler similarity of a known path that an error suggests.
@@ -38,8 +40,18 @@ impl Setting {
         }
     }
 
+    /// A setting of yes or no; `None` if the scene lacks the block of the key.
+    pub(crate) fn switched(path: &str, is_on: bool, scene: &SceneFile) -> Option<Self> {
+        let (block, _) = path.rsplit_once('.').unwrap_or_default();
+        let scene = super::entries::value(scene);
+        let found = block.split('.').try_fold(&scene, |part, key| part.get(key));
+        found.filter(|block| !block.is_null()).map(|_| Setting {
+            path: path.to_owned(),
+            value: Given::Switch(is_on),
+        })
+    }
+
     /// Path of the key.
-    #[cfg(feature = "cli")]
     pub(super) fn path(&self) -> &str {
         &self.path
     }
@@ -172,7 +184,6 @@ impl<'a> Reading<'a> {
     }
 
     /// The same number under another name in its errors.
-    #[cfg(feature = "cli")]
     pub fn named(self, key: &'a str) -> Self {
         Reading { key, ..self }
     }
@@ -450,6 +461,7 @@ fn value(setting: &Setting) -> Result<Value, RefusedValue> {
     let value = match &setting.value {
         Given::Number(value) => *value,
         Given::Word(word) => return Ok(Value::from(word.as_str())),
+        Given::Switch(is_on) => return Ok(Value::from(*is_on)),
     };
     if value.fract() == 0.0 && (0.0..EXACT).contains(&value) {
         return Ok(Value::from(value as u64));

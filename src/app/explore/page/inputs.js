@@ -78,7 +78,7 @@ class Axes {
 }
 
 class Goal {
-  #goal = menu("place-goal", [["", "largest flutter speed"], ["window", "widest stable window around the operating speed"]]);
+  #goal = menu("place-goal", [["flutter", "largest flutter speed"], ["window", "widest stable window around the operating speed"]]);
   #least = node("input", { id: "place-least", type: "text", placeholder: "none" });
 
   constructor(place) {
@@ -88,7 +88,7 @@ class Goal {
   refresh() {}
 
   get asked() {
-    return { window: this.#goal.value === "window", min_critical: this.#least.value };
+    return { options: { goal: this.#goal.value, min_critical_rpm: this.#least.value } };
   }
 }
 
