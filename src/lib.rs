@@ -48,6 +48,7 @@
 //! | what happens in a run-up | [`runup()`] |
 //! | which stiffness, density … has a measured saw | [`fit()`] |
 //! | where do guides belong | [`place()`] |
+//! | how thick, stiff or fast may the saw be | [`size()`](analyses::size::size) |
 //! | how many saws within tolerances keep their limits | [`study()`] |
 //! | how does stability change over one or two numbers | [`map()`] |
 //! | how do saws differ | [`compare()`] |

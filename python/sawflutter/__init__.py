@@ -20,7 +20,7 @@ from ._result import Result
 from ._scene_types import SceneDict, StudyDict
 from .checks import CheckResults
 from .compared import CompareResults, compare
-from .designs import DesignResults, FitResults, FittedDifference, PlaceResults, Speeds, StiffnessMap, TradeoffResults
+from .designs import DesignResults, FitResults, FittedDifference, PlaceResults, SizeResults, Speeds, StiffnessMap, TradeoffResults
 from .errors import (
     AnalysisError,
     ArgumentError,
@@ -82,6 +82,7 @@ __all__ = [
     "SceneDict",
     "SceneError",
     "Spectrum",
+    "SizeResults",
     "Speeds",
     "StateSpace",
     "StiffnessMap",

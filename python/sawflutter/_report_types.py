@@ -3057,6 +3057,122 @@ class RunUpReport(Entry):
 
 
 @dataclass(frozen=True, eq=False, repr=False, kw_only=True)
+class SizedLimit(Entry):
+    """A limit, and its margin over the values.
+
+    Attributes
+    ----------
+    key : Short name of the limit, for programs, as in the report of a check.
+    name : Requirement in words.
+    margins : Distance from the limit relative to it, negative if it is not kept; null if it has
+        no number there, or the saw was refused.
+    """
+
+    key: str
+    name: str
+    margins: FloatArray
+
+
+@dataclass(frozen=True, eq=False, repr=False, kw_only=True)
+class SizedWindow(Entry):
+    """A range of values in which a saw keeps all limits.
+
+    Attributes
+    ----------
+    from_ : Smallest value.
+    to : Largest value.
+    below : The limit that a smaller value does not keep, with what was found there; null at the
+        first value that was tried.
+    above : The limit that a larger value does not keep, with what was found there; null at the
+        last value that was tried.
+    """
+
+    from_: float = field(metadata={"key": "from"})
+    to: float
+    below: str | None
+    above: str | None
+
+
+@dataclass(frozen=True, eq=False, repr=False, kw_only=True)
+class SizeAnswer(Entry):
+    """A value with which the saw keeps its limits, checked at the accuracy of the scene.
+
+    Attributes
+    ----------
+    value : The value, rounded to a usual step towards the inside of the range.
+    is_of_scene : Whether the scene has it already.
+    scene : The scene with this value.
+    criteria : Every limit at this value.
+    first_critical_rpm : First critical speed at this value; null if there is none.
+    deflection_m : Deflection of the rim at the cut at this value; null if it is unknown.
+    critical_rpm_per_percent : Change of the first critical speed if the number is larger by 1
+        %; null if it is unknown.
+    deflection_m_per_percent : Change of the deflection at the cut if the number is larger by 1
+        %; null if it is unknown.
+    """
+
+    value: float
+    is_of_scene: bool
+    scene: SceneDict
+    criteria: tuple[Criterion, ...]
+    first_critical_rpm: float | None
+    deflection_m: float | None
+    critical_rpm_per_percent: float | None
+    deflection_m_per_percent: float | None
+
+
+@dataclass(frozen=True, eq=False, repr=False, kw_only=True)
+class SizeReport(Entry):
+    """The values of a number with which a saw keeps its limits.
+
+    Attributes
+    ----------
+    sawflutter : Version of the program that wrote the report.
+    scene : The scene, as typed.
+    condition : Whether the saw idles or is in its cut.
+    unusual_numbers : Numbers that no saw has, each with its key, the usual range, and the
+        remedy.
+    paths : JSON paths of the number in the scene; several if it is that of several guides.
+    name : Name of the number.
+    unit : Unit of the number; empty if it has none.
+    of_scene : Value in the scene.
+    from_ : First value that was tried.
+    to : Last value that was tried.
+    operating_rpm : Operating speed; null if it is the number itself.
+    values : Values that were tried, ascending.
+    kept : Whether the saw keeps all limits at each of these values.
+    limits : Every limit, with its margin at each of these values.
+    windows : Ranges of values in which the saw keeps all limits.
+    answer : A value in the range that is nearest to the value of the scene; null if there is no
+        range.
+    searched_tolerance : Relative tolerance with which the ranges were searched; their ends and
+        the answer have that of the scene.
+    saws : Number of saws that were checked.
+    warnings : Remarks on the validity of the result.
+    """
+
+    sawflutter: str
+    scene: SceneDict
+    condition: str
+    unusual_numbers: tuple[str, ...]
+    paths: tuple[str, ...]
+    name: str
+    unit: str
+    of_scene: float
+    from_: float = field(metadata={"key": "from"})
+    to: float
+    operating_rpm: float | None
+    values: FloatArray
+    kept: BoolArray
+    limits: tuple[SizedLimit, ...]
+    windows: tuple[SizedWindow, ...]
+    answer: SizeAnswer | None
+    searched_tolerance: float
+    saws: int
+    warnings: tuple[str, ...]
+
+
+@dataclass(frozen=True, eq=False, repr=False, kw_only=True)
 class Grid(Entry):
     """A number of a point of the grid.
 

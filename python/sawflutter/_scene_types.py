@@ -460,6 +460,33 @@ class SplineDict(_SplineDict, total=False):
     rotation. Without it the weight does not act in the plane of the blade."""
 
 
+class LimitsDict(TypedDict, total=False):
+    """Limits that the saw has to keep, for every verdict. An absent one is that of practice, if
+    there is one."""
+
+    margin: float | None
+    """Largest ratio of the operating speed to the first critical speed; 0.85 where it is
+    absent, the rule of saw makers."""
+
+    min_critical_rpm: float | None
+    """Lowest allowed first critical speed."""
+
+    min_flutter_rpm: float | None
+    """Lowest allowed flutter speed."""
+
+    max_rim_m_per_s: float | None
+    """Largest allowed speed of the rim; 100 m/s where it is absent, the most that makers of
+    carbide-tipped blades allow. Saws for stone have 80 m/s."""
+
+    max_amplitude_m: float | None
+    """Largest allowed amplitude of flutter in any band up to the operating speed, without
+    damping."""
+
+    max_deviation_m: float | None
+    """Largest allowed deflection of the rim at the cut under the lateral force, at the
+    operating speed."""
+
+
 class ExcitationDict(TypedDict, total=False):
     """Lines of the Campbell diagram at multiples of the rotation speed, and their crossings
     with the natural frequencies."""
@@ -771,6 +798,9 @@ class SceneDict(_SceneDict, total=False):
     """Operating speed, to which the 85 % rule applies. Typically 60 m/s at the rim, from 40 to
     100 (the paper's saw runs at 67 m/s; makers of carbide-tipped blades allow 100)."""
 
+    limits: LimitsDict | None
+    """Limits that the saw has to keep; by default those of practice."""
+
     excitation: ExcitationDict | None
     """Lines of the Campbell diagram at multiples of the rotation speed. None by default."""
 
@@ -871,14 +901,13 @@ class ParameterDict(TypedDict):
     """Distribution, in the unit of the number."""
 
 
-class LimitsDict(TypedDict, total=False):
-    """Limits of a saw, as options of `sawflutter check` and in the block `limits` of a
-    study."""
+class StudyLimitsDict(TypedDict, total=False):
+    """Limits of the saws of a study. An absent one is that of the scene, or of practice."""
 
     operating_rpm: float | None
-    """Operating speed; by default that of the scene."""
+    """Operating speed."""
 
-    margin: float
+    margin: float | None
     """Largest ratio of the operating speed to the first critical speed."""
 
     min_flutter_rpm: float | None
@@ -930,8 +959,8 @@ class StudyDict(_StudyDict, total=False):
     """Last speed of the sweep; by default the end of the scene's sweep. Limits at higher speeds
     extend the sweep."""
 
-    limits: LimitsDict | None
-    """Limits of each saw, as for `sawflutter check`."""
+    limits: StudyLimitsDict | None
+    """Limits of each saw, in place of those of the scene."""
 
     gap: GapDict | None
     """Computations for guides with a gap; at least one guide of the scene is one-sided."""
@@ -985,6 +1014,8 @@ NumberPath: TypeAlias = Literal[
     "membrane.straight_edge.measured_gap_m", "spline.teeth", "spline.pressure_angle_deg",
     "spline.contact_stiffness_n_per_m_3_2", "spline.contact_damping_n_s_3_2_per_m_3_2",
     "spline.clearance_m", "spline.pitch_radius_m", "spline.weight_angle_deg", "operating_rpm",
+    "limits.margin", "limits.min_critical_rpm", "limits.min_flutter_rpm",
+    "limits.max_rim_m_per_s", "limits.max_amplitude_m", "limits.max_deviation_m",
     "excitation.orders", "excitation.tooth_passing", "sweep.from_rpm", "sweep.to_rpm",
     "tolerance", "flutter_threshold_per_s", "cut.angle_deg", "cut.depth_m", "cut.teeth_in_cut",
     "cut.tangential_n_per_tooth", "cut.radial_n_per_tooth", "cut.lateral_n_per_tooth",

@@ -11,7 +11,7 @@ from typing import Any
 from . import _native
 from ._drawn import Drawn
 from ._entry import Entry, FloatArray
-from ._report_types import DesignReport, FitReport, Instability, PlaceReport, Setting
+from ._report_types import DesignReport, FitReport, Instability, PlaceReport, Setting, SizeReport
 from ._result import Report, Result
 from ._values import Number, number
 from .errors import refused
@@ -118,6 +118,13 @@ class PlaceResults(Result, PlaceReport):
     panel without a map."""
 
     _command, _rows_of, _steps = "place", "parameters", "saws"
+
+
+class SizeResults(Result, SizeReport):
+    """The ranges of a number in which the saw keeps its limits (:attr:`windows`), and a checked value in the
+    nearest one (:attr:`answer`, None if there is none)."""
+
+    _command, _rows_of, _steps = "size", "windows", "saws"
 
 
 class DesignResults(Result, DesignReport):

@@ -26,7 +26,7 @@ from ._scene_types import (
 )  # fmt: skip
 from ._values import Number, number, numbers, optional, whole
 from .checks import CheckResults
-from .designs import DesignResults, FitResults, PlaceResults, Speeds, StiffnessMap, TradeoffResults
+from .designs import DesignResults, FitResults, PlaceResults, SizeResults, Speeds, StiffnessMap, TradeoffResults
 from .errors import refused, warned
 from .matrices import Matrices
 from .modes import Modes
@@ -384,12 +384,13 @@ class Scene(Drawn, Mapping[str, Value]):
         self,
         *,
         operating_rpm: Number | None = None,
-        margin: Number = 0.85,
+        accept_unusual: bool = False,
+        margin: Number | None = None,
         min_flutter_rpm: Number | None = None,
         min_critical_rpm: Number | None = None,
-        max_rim_m_per_s: Number = 100.0,
+        max_rim_m_per_s: Number | None = None,
         max_amplitude_m: Number | None = None,
-        accept_unusual: bool = False,
+        max_deviation_m: Number | None = None,
         accuracy: Accuracy | None = None,
         tolerance: Number | None = None,
     ) -> CheckResults:
@@ -400,18 +401,20 @@ class Scene(Drawn, Mapping[str, Value]):
         ----------
         operating_rpm : float, optional
             Operating speed; by default that of the scene.
-        margin : float
-            Largest allowed ratio of operating speed to first critical speed.
+        accept_unusual : bool
+            Let a saw with implausible numbers pass.
+        margin : float, optional
+            Largest allowed ratio of operating speed to first critical speed; 0.85 in a scene without one.
         min_flutter_rpm : float, optional
             Lowest allowed flutter speed.
         min_critical_rpm : float, optional
             Lowest allowed first critical speed.
-        max_rim_m_per_s : float
-            Largest allowed speed of the rim.
+        max_rim_m_per_s : float, optional
+            Largest allowed speed of the rim; 100 m/s in a scene without one.
         max_amplitude_m : float, optional
             Largest allowed amplitude of flutter in any band up to the operating speed, without damping.
-        accept_unusual : bool
-            Let a saw with implausible numbers pass.
+        max_deviation_m : float, optional
+            Largest allowed deflection of the rim at the cut, at the operating speed.
         accuracy, tolerance
             As in :meth:`run_campbell`.
 
@@ -425,8 +428,9 @@ class Scene(Drawn, Mapping[str, Value]):
         ('85 % rule',)
         """
         return self._asked(CheckResults, accuracy, tolerance, None, operating_rpm=operating_rpm,
-            margin=margin, min_flutter_rpm=min_flutter_rpm, min_critical_rpm=min_critical_rpm,
-            max_rim_m_per_s=max_rim_m_per_s, max_amplitude_m=max_amplitude_m, accept_unusual=accept_unusual)
+            accept_unusual=accept_unusual, margin=margin, min_flutter_rpm=min_flutter_rpm,
+            min_critical_rpm=min_critical_rpm, max_rim_m_per_s=max_rim_m_per_s,
+            max_amplitude_m=max_amplitude_m, max_deviation_m=max_deviation_m)
 
     def run_cut(
         self,
@@ -597,7 +601,7 @@ class Scene(Drawn, Mapping[str, Value]):
             Speed of the map over gap and force; by default the operating speed, or half of the first
             critical speed.
         max_deviation_m : float, optional
-            Largest deflection at the cut that is allowed.
+            Largest allowed deflection of the rim at the cut, at the operating speed.
         force_n : float, optional
             Constant side force, in place of side_force.force_n of the scene; 1 N in a scene without one.
         oscillating_force_n : float, optional
@@ -699,12 +703,10 @@ class Scene(Drawn, Mapping[str, Value]):
 
     def place(
         self,
-        *,
         free: Free = None,
+        *,
         goal: Literal["flutter", "window"] = "flutter",
-        min_critical_rpm: Number | None = None,
         amplitude_m: Number | None = None,
-        max_deviation_m: Number | None = None,
         samples: SupportsIndex = 64,
         refine: SupportsIndex = 60,
         map: SupportsIndex = 17,
@@ -712,6 +714,8 @@ class Scene(Drawn, Mapping[str, Value]):
         angle_tolerance_deg: Number = 1.0,
         guide_tolerance_share: Number = 0.1,
         other_tolerance_share: Number = 0.01,
+        min_critical_rpm: Number | None = None,
+        max_deviation_m: Number | None = None,
         force_n: Number | None = None,
         accuracy: Accuracy | None = None,
         tolerance: Number | None = None,
@@ -727,13 +731,9 @@ class Scene(Drawn, Mapping[str, Value]):
             the default ones.
         goal : {"flutter", "window"}
             Quantity to maximize: the flutter speed, or the stable window around the operating speed.
-        min_critical_rpm : float, optional
-            Lowest allowed first critical speed.
         amplitude_m : float, optional
             Amplitude at guides with a gap, with whose mean stiffness bands and critical speeds are
             computed; by default guides have their full stiffness.
-        max_deviation_m : float, optional
-            Largest allowed deflection at the cut at the operating speed, with guides with a gap.
         samples : int
             Saws in the first sampling of the bounds.
         refine : int
@@ -749,6 +749,10 @@ class Scene(Drawn, Mapping[str, Value]):
             Tolerance of the stiffness, damping or gap of a guide, as a share of it.
         other_tolerance_share : float
             Tolerance of other numbers, as a share of each.
+        min_critical_rpm : float, optional
+            Lowest allowed first critical speed.
+        max_deviation_m : float, optional
+            Largest allowed deflection of the rim at the cut, at the operating speed.
         force_n : float, optional
             Constant side force, in place of side_force.force_n of the scene; 1 N in a scene without one.
         accuracy, tolerance, progress
@@ -764,11 +768,69 @@ class Scene(Drawn, Mapping[str, Value]):
         ['guides[0].radius_m']
         """
         return self._asked(PlaceResults, accuracy, tolerance, progress, free=free, goal=goal,
-            min_critical_rpm=min_critical_rpm, amplitude_m=amplitude_m, max_deviation_m=max_deviation_m,
-            samples=whole("samples", samples), refine=whole("refine", refine), map=whole("map", map),
-            radius_tolerance_m=radius_tolerance_m, angle_tolerance_deg=angle_tolerance_deg,
-            guide_tolerance_share=guide_tolerance_share, other_tolerance_share=other_tolerance_share,
-            force_n=force_n)
+            amplitude_m=amplitude_m, samples=whole("samples", samples), refine=whole("refine", refine),
+            map=whole("map", map), radius_tolerance_m=radius_tolerance_m,
+            angle_tolerance_deg=angle_tolerance_deg, guide_tolerance_share=guide_tolerance_share,
+            other_tolerance_share=other_tolerance_share, min_critical_rpm=min_critical_rpm,
+            max_deviation_m=max_deviation_m, force_n=force_n)
+
+    def size(
+        self,
+        vary: Free = None,
+        *,
+        points: SupportsIndex = 17,
+        operating_rpm: Number | None = None,
+        margin: Number | None = None,
+        min_flutter_rpm: Number | None = None,
+        min_critical_rpm: Number | None = None,
+        max_rim_m_per_s: Number | None = None,
+        max_amplitude_m: Number | None = None,
+        max_deviation_m: Number | None = None,
+        force_n: Number | None = None,
+        accuracy: Accuracy | None = None,
+        tolerance: Number | None = None,
+        progress: Progress = None,
+    ) -> SizeResults:
+        """Finds the values of a number of the scene with which the saw keeps all its limits at its
+        operating speed: how thick, how stiff, how tight, how fast?.
+
+        Parameters
+        ----------
+        vary : dict or list of str, optional
+            The number, by its path in the scene, with or without bounds; guides[*] are all guides at once.
+        points : int
+            Number of saws between the bounds among which ranges are searched.
+        operating_rpm : float, optional
+            Operating speed, in place of that of the scene.
+        margin : float, optional
+            Largest allowed ratio of operating speed to first critical speed; 0.85 in a scene without one.
+        min_flutter_rpm : float, optional
+            Lowest allowed flutter speed.
+        min_critical_rpm : float, optional
+            Lowest allowed first critical speed.
+        max_rim_m_per_s : float, optional
+            Largest allowed speed of the rim; 100 m/s in a scene without one.
+        max_amplitude_m : float, optional
+            Largest allowed amplitude of flutter in any band up to the operating speed, without damping.
+        max_deviation_m : float, optional
+            Largest allowed deflection of the rim at the cut, at the operating speed.
+        force_n : float, optional
+            Constant side force, in place of side_force.force_n of the scene; 1 N in a scene without one.
+        accuracy, tolerance, progress
+            As in :meth:`run_campbell`.
+
+        Examples
+        --------
+        >>> import sawflutter as sf
+        >>> saw = sf.Scene.paper().replace({"accuracy": "draft", "operating_rpm": 1250, "sweep": None})
+        >>> found = saw.size({"blade.thickness_m": ("2 mm", "3.2 mm")}, points=3)
+        >>> found.windows[0].above is None, round(found.windows[0].from_, 4)
+        (True, 0.0026)
+        """
+        return self._asked(SizeResults, accuracy, tolerance, progress, vary=vary, points=whole("points",
+            points), operating_rpm=operating_rpm, margin=margin, min_flutter_rpm=min_flutter_rpm,
+            min_critical_rpm=min_critical_rpm, max_rim_m_per_s=max_rim_m_per_s,
+            max_amplitude_m=max_amplitude_m, max_deviation_m=max_deviation_m, force_n=force_n)
     # End of what is generated.
 
     def run_map(

@@ -48,6 +48,13 @@ EXAMPLES = {
     >>> found.parameters[0].path
     'guides[0].stiffness_n_per_m'
     """,
+    "size": """
+    >>> import sawflutter as sf
+    >>> saw = sf.Scene.paper().replace({"accuracy": "draft", "operating_rpm": 1250, "sweep": None})
+    >>> found = saw.size({"blade.thickness_m": ("2 mm", "3.2 mm")}, points=3)
+    >>> found.windows[0].above is None, round(found.windows[0].from_, 4)
+    (True, 0.0026)
+    """,
     "place": """
     >>> import sawflutter as sf
     >>> saw = sf.Scene.paper().with_accuracy("draft")
@@ -98,7 +105,7 @@ def converted(argument: Argument) -> str:
 def method(call: dict[str, Any]) -> str:
     """The text of a method."""
     arguments, name = call["arguments"], call["method"]
-    first = kind(arguments[0])[0] in ("speeds", "table") or len(arguments) == 1
+    first = kind(arguments[0])[0] in ("speeds", "table", "bounds") or len(arguments) == 1
     parts = ["self"]
     for place, argument in enumerate(arguments):
         annotation, value, _ = declared(argument)

@@ -23,6 +23,7 @@ pub mod response;
 pub mod runup;
 mod scene_axis;
 pub(crate) mod scene_number;
+pub mod size;
 pub mod study;
 pub mod tradeoff;
 pub mod washboard;

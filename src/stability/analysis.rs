@@ -28,8 +28,6 @@ use crate::model::scene::{Accuracy, Scene, SceneError, SpeedRange, rad_per_s, rp
 use crate::modes::branches::CampbellError;
 use crate::modes::{DescribedMode, SpectralModel, SpectrumError, Strategy};
 
-/// Largest share of the first critical speed at which saw makers run a saw.
-pub const OPERATING_LIMIT: f64 = 0.85;
 /// Number of even speeds in the chart of a free blade, whose modes take little time.
 const FREE_CHART_SPEEDS: usize = 101;
 

@@ -51,7 +51,6 @@ mod undecided;
 mod verdict;
 
 pub use analysis::Analysis;
-pub(crate) use analysis::OPERATING_LIMIT;
 pub(crate) use band::CurvePoint;
 pub use band::{BandEnd, Instability};
 pub use basis::ChosenBasis;

@@ -176,7 +176,11 @@ fn a_check_passes_fails_or_is_refused() {
             "PASS flutter speed of at least 1400 rpm: 2256 rpm",
         ),
         (&["--rpm", "-3"], 2, "--rpm must be … (you gave -3)"),
-        (&["--margin", "2"], 2, "--margin must be … (you gave 2)"),
+        (
+            &["--margin", "2"],
+            2,
+            "limits.margin must be … (you gave 2)",
+        ),
     ];
     for (arguments, code, expected) in cases {
         let output = sawflutter()

@@ -192,7 +192,7 @@ fn the_exit_code_says_whether_the_limit_is_kept_or_the_input_refused() {
         (
             &["--min-critical", "-9"],
             2,
-            "--min-critical must be … (you gave -9)",
+            "--min-critical was refused: limits.min_critical_rpm must be … (you gave -9)",
         ),
         (&["--map", "1"], 2, "--map must be … (you gave 1)"),
         (&["--samples", "0"], 2, "--samples must be … (you gave 0)"),

@@ -13,4 +13,5 @@ mod measurements;
 mod fit;
 mod numbers;
 mod place;
+mod size;
 mod study;

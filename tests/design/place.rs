@@ -380,8 +380,11 @@ fn the_gap_is_as_narrow_as_the_deflection_demands() {
         })
         .unwrap();
     let free = freed(&saw, &[("guides[0].gap_m", 2e-5, 1e-4)]);
+    let limited = saw
+        .edited(|file| file.limits.get_or_insert_default().max_deviation_m = Some(3e-4))
+        .unwrap();
     let demands = Demands {
-        gap: GapDemands::new(&saw, Some(1.5e-4), Some(3e-4)).unwrap(),
+        gap: GapDemands::new(&limited, Some(1.5e-4)).unwrap(),
         ..Demands::default()
     };
     let few = Options {

@@ -172,7 +172,7 @@ fn a_fit_is_taken_over_and_a_missing_part_is_added() {
 /// The numbers of a map are chosen in its tab, within usual bounds.
 #[test]
 #[ignore = "needs chromium and chromium-driver; run by .ci/run"]
-fn a_response_a_gap_and_a_map_are_those_of_the_command_line() {
+fn a_response_a_gap_a_size_and_a_map_are_those_of_the_command_line() {
     run(async {
         let folder = tempfile::tempdir().unwrap();
         let mut scene: Value =
@@ -195,7 +195,8 @@ fn a_response_a_gap_and_a_map_are_those_of_the_command_line() {
         .await;
         page.settle().await;
         let map = ["map", "--x", "blade.thickness_m=2.24mm..3.36mm"];
-        for command in [&["response"], &["gap"], map.as_slice()] {
+        let size = ["size", "--vary", "blade.thickness_m"];
+        for command in [&["response"], &["gap"], size.as_slice(), map.as_slice()] {
             let tab = command[0];
             page.compute(tab).await;
             page.screenshot(&format!("1280-{tab}.png")).await;

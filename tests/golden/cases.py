@@ -11,6 +11,7 @@ BRIEF = {"runup.to_rpm": 2600, "runup.duration_s": 6}
 PADS = ["--force", "2", "--max-deviation", "0.3mm", "--oscillating-force", "0.5", "--friction", "0.2"]
 QUICK_PLACE = ["--free", "guides[0].radius_m=0.195..0.205", "--samples", "3", "--refine", "4"]
 THICKNESS = ["--x", "blade.thickness_m=2.6mm..3mm", "--points", "3"]
+SIZED = ["--accuracy", "draft", "--points", "5", "--rpm", "1300"]
 STUDY = {
     "name": "two numbers",
     "parameters": [
@@ -67,6 +68,8 @@ CASES = {
     "runup-stretching": ("paper", BRIEF, ["runup", "saw", "--stretching"]),
     "washboard-grows": ("gallery/washboarding", {}, ["washboard", "saw"]),
     "washboard-smooth": ("gallery/washboarding", {"cut.washboarding.stiffness_n_per_m": 100}, ["washboard", "saw"]),
+    "size-thickness": ("paper", {}, ["size", "saw", *SIZED, "--vary", "blade.thickness_m=2mm..3.2mm"]),
+    "size-none": ("paper", {}, ["size", "saw", *SIZED, "--vary", "guides[0].radius_m=0.3..0.34"]),
     # A study, its parts, and their sum.
     "study-whole": ("paper", {}, ["study", "saw", "study"]),
     "study-part": ("paper", {}, ["study", "saw", "study", "--shard", "1/2"]),
@@ -86,7 +89,7 @@ CASES = {
     "refused-without-cut": ("paper", {"cut": None}, ["cut", "saw"]),
 }
 HELP = (
-    "analyze report cut runup response deflect gap washboard check explore fit place study map compare tradeoff export keys schema"
+    "analyze report cut runup response deflect gap washboard check explore fit size place study map compare tradeoff export keys schema"
 )
 CASES |= {f"help-{name}": (None, {}, [name, "--help"]) for name in HELP.split()}
 CASES["help"] = (None, {}, ["--help"])

@@ -18,9 +18,9 @@ use super::speeds::{CriticalSpeed, InstabilityBand, OperatingPoint};
 use crate::analyses::board_deviation::BoardDeviation;
 use crate::analyses::check::side_force_factor;
 use crate::model::plate::Plate;
-use crate::model::scene::rpm;
+use crate::model::scene::{LimitsFile, rpm};
 use crate::modes::{DescribedMode, EventName, EventWaves, WorkCounters};
-use crate::stability::{Analysis, Evidence, Instability, InstabilityKind, OPERATING_LIMIT};
+use crate::stability::{Analysis, Evidence, Instability, InstabilityKind};
 
 /// Harmonics with a smaller share of the kinetic energy are omitted from a mode at rest.
 const LEAST_SHARE: f64 = 1e-4;
@@ -316,7 +316,12 @@ impl InstabilityBand {
 
 impl OperatingPoint {
     /// Verdict at a speed, without the modes there.
-    pub(crate) fn from_evidence(evidence: &Evidence<'_>, speed_rad_per_s: f64) -> Self {
+    pub(crate) fn from_evidence(
+        evidence: &Evidence<'_>,
+        speed_rad_per_s: f64,
+        limits: &LimitsFile,
+    ) -> Self {
+        let limit = limits.margin();
         let critical = evidence.critical_rad_per_s;
         let of_lowest_critical = critical.first().map(|lowest| speed_rad_per_s / lowest);
         let verdict = evidence.verdict(speed_rad_per_s);
@@ -325,8 +330,8 @@ impl OperatingPoint {
             rpm: rpm(speed_rad_per_s),
             lowest_critical_rpm: critical.first().copied().map(rpm),
             of_lowest_critical,
-            limit: OPERATING_LIMIT,
-            within_limit: of_lowest_critical.map(|ratio| ratio <= OPERATING_LIMIT),
+            limit,
+            within_limit: of_lowest_critical.map(|ratio| ratio <= limit),
             verdict: verdict.state,
             inside_instability: verdict.band,
             at_critical_rpm: verdict.critical.map(|place| rpm(critical[place])),
@@ -348,7 +353,11 @@ fn operating(analysis: &Analysis, speed_rad_per_s: f64) -> OperatingPoint {
         frequency_hz: fastest.map(|lambda| lambda.im.abs() / TAU),
         side_force_factor: side_force_factor(analysis, speed_rad_per_s),
         deviation: Some(BoardDeviation::of(analysis, speed_rad_per_s)),
-        ..OperatingPoint::from_evidence(&analysis.evidence(&critical), speed_rad_per_s)
+        ..OperatingPoint::from_evidence(
+            &analysis.evidence(&critical),
+            speed_rad_per_s,
+            &analysis.scene.limits(),
+        )
     }
 }
 

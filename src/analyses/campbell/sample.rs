@@ -35,6 +35,7 @@ pub fn empty_report(name: &str) -> Report {
         damping: None,
         membrane: None,
         spline: None,
+        limits: None,
         excitation: None,
         cut: None,
         side_force: None,

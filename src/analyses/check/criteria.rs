@@ -3,6 +3,7 @@
 use super::limits::Limits;
 use super::report::Criterion;
 use super::static_deflection::StaticDeflection;
+use crate::analyses::board_deviation::BoardDeviation;
 use crate::analyses::campbell::too_close;
 use crate::model::plate::Plate;
 use crate::model::scene::{Accuracy, Polar, Scene, SpeedRange, rpm};
@@ -178,6 +179,26 @@ impl Limits {
             found_rpm: found.map(rpm),
             asked_rpm: rpm(asked),
             passed: found.is_none_or(|found| found > asked),
+        })
+    }
+}
+
+impl Limits {
+    /// Criterion of the deflection of the rim at the cut; `None` without a limit.
+    pub(super) fn of_deviation(&self, found: &BoardDeviation) -> Option<Criterion> {
+        let limit_m = self.max_deviation_m?;
+        let is_kept = found.deflection_m.is_some_and(|found| found <= limit_m);
+        let asked = self.operating_rad_per_s;
+        Some(Criterion {
+            key: "max_deviation".to_owned(),
+            name: format!(
+                "deflection of at most {} mm at the cut",
+                shown(1e3 * limit_m)
+            ),
+            finding: found.in_words(),
+            found_rpm: (!is_kept).then_some(rpm(asked)),
+            asked_rpm: rpm(asked),
+            passed: is_kept,
         })
     }
 }

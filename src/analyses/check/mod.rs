@@ -39,10 +39,10 @@ use crate::stability::{Analysis, AnalysisError};
 pub(crate) use outline::outline;
 
 use criteria::{of_gaps, without_stiffness};
-pub(crate) use limits::RIM_LIMIT_M_PER_S;
+pub use limits::Limits;
 use limits::Reach;
-pub use limits::{Limits, LimitsFile};
 pub use options::Options;
+pub(crate) use options::{MARGIN, MAX_AMPLITUDE, MAX_RIM, MIN_FLUTTER};
 pub use report::{CheckReport, Criterion, RimStiffness};
 pub(crate) use rim::{
     Judged, point_load_plate, rim_at_cut, rim_stiffness_at_rest_n_per_m, side_force_factor,
@@ -96,6 +96,8 @@ pub fn check(scene: &Scene, limits: &Limits) -> Result<CheckReport, CheckError> 
         Some(_) => saturations(analysis)?,
     };
     criteria.extend(limits.of_amplitude(analysis, &saturations));
+    let deviation = BoardDeviation::of(analysis, operating);
+    criteria.extend(limits.of_deviation(&deviation));
     let is_free = analysis.model.has_free_motions();
     criteria.extend(is_free.then(|| without_stiffness(operating)));
     // Nothing resists a side force where rigid motions are free, or where K(Ω) is singular.
@@ -131,7 +133,7 @@ pub fn check(scene: &Scene, limits: &Limits) -> Result<CheckReport, CheckError> 
             .map(|bending| bending.rim_stiffness())
             .unwrap_or_default(),
         side_force_factor: side_force_factor(analysis, operating),
-        deviation: Some(BoardDeviation::of(analysis, operating)),
+        deviation: Some(deviation),
         rim_speed_m_per_s: operating * scene.blade().outer_radius_m,
         max_rim_m_per_s: limits.max_rim_m_per_s,
         max_amplitude_m: limits.max_amplitude_m,

@@ -3,66 +3,65 @@
 use schemars::JsonSchema;
 use serde::Deserialize;
 
-use super::{CheckError, CheckReport, Limits, LimitsFile, RIM_LIMIT_M_PER_S, check};
-use crate::analyses::door::{CommandError, CommandOptions, Progress};
+use super::{CheckError, CheckReport, Limits, check};
+use crate::analyses::door::{CommandError, CommandOptions, Progress, SceneNumber};
 use crate::model::scene::Scene;
-use crate::stability::OPERATING_LIMIT;
 
 /// Checks the saw against limits. The result is true in a boolean context if every limit is kept: assert
 /// saw.check(...).
-#[derive(Debug, Clone, Copy, PartialEq, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Copy, Default, PartialEq, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct Options {
     /// Operating speed; by default that of the scene.
     #[schemars(extend("x-option" = "rpm"))]
     pub operating_rpm: Option<f64>,
-    /// Largest allowed ratio of operating speed to first critical speed.
-    pub margin: f64,
-    /// Lowest allowed flutter speed.
-    pub min_flutter_rpm: Option<f64>,
-    /// Lowest allowed first critical speed.
-    pub min_critical_rpm: Option<f64>,
-    /// Largest allowed speed of the rim.
-    pub max_rim_m_per_s: f64,
-    /// Largest allowed amplitude of flutter in any band up to the operating speed, without damping.
-    pub max_amplitude_m: Option<f64>,
     /// Let a saw with implausible numbers pass.
     pub accept_unusual: bool,
 }
 
-impl Default for Options {
-    fn default() -> Self {
-        Options {
-            operating_rpm: None,
-            margin: OPERATING_LIMIT,
-            min_flutter_rpm: None,
-            min_critical_rpm: None,
-            max_rim_m_per_s: RIM_LIMIT_M_PER_S,
-            max_amplitude_m: None,
-            accept_unusual: false,
-        }
-    }
-}
+pub(crate) const MARGIN: SceneNumber = SceneNumber::new(
+    "margin",
+    "margin",
+    "limits.margin",
+    "Largest allowed ratio of operating speed to first critical speed; 0.85 in a scene without one",
+);
+pub(crate) const MIN_FLUTTER: SceneNumber = SceneNumber::new(
+    "min_flutter_rpm",
+    "min-flutter",
+    "limits.min_flutter_rpm",
+    "Lowest allowed flutter speed",
+);
+pub(crate) const MAX_RIM: SceneNumber = SceneNumber::new(
+    "max_rim_m_per_s",
+    "max-rim",
+    "limits.max_rim_m_per_s",
+    "Largest allowed speed of the rim; 100 m/s in a scene without one",
+);
+pub(crate) const MAX_AMPLITUDE: SceneNumber = SceneNumber::new(
+    "max_amplitude_m",
+    "max-amplitude",
+    "limits.max_amplitude_m",
+    "Largest allowed amplitude of flutter in any band up to the operating speed, without damping",
+);
 
 impl CommandOptions for Options {
     type Report = CheckReport;
     const COMMAND: &str = "check";
     const METHOD: &str = "check";
+    const SETS: &[SceneNumber] = &[
+        MARGIN,
+        MIN_FLUTTER,
+        SceneNumber::MIN_CRITICAL,
+        MAX_RIM,
+        MAX_AMPLITUDE,
+        SceneNumber::MAX_DEVIATION,
+    ];
 
     fn compute(&self, scene: &Scene, _: Progress<'_>) -> Result<CheckReport, CommandError> {
-        let asked = LimitsFile {
-            operating_rpm: self.operating_rpm,
-            margin: self.margin,
-            min_flutter_rpm: self.min_flutter_rpm,
-            min_critical_rpm: self.min_critical_rpm,
-        };
-        let limits = asked
-            .limits(scene)?
-            .with_rim_speed(self.max_rim_m_per_s)?
-            .with_amplitude(self.max_amplitude_m)?;
+        let operating_rpm = scene.needed_operating_rpm(self.operating_rpm)?;
         let limits = Limits {
             accept_unusual: self.accept_unusual,
-            ..limits
+            ..Limits::of(scene, operating_rpm)?
         };
         Ok(check(scene, &limits)?)
     }

@@ -10,7 +10,9 @@ use super::CommandReport;
 use crate::analyses::door::{
     Argument, CommandError, CommandOptions, Entered, Progress, described, entered,
 };
-use crate::analyses::{check, cut, deflect, fit, gap, place, report, response, runup, washboard};
+use crate::analyses::{
+    check, cut, deflect, fit, gap, place, report, response, runup, size, washboard,
+};
 use crate::model::scene::{Scene, SceneFile};
 
 /// A command of one saw.
@@ -55,6 +57,7 @@ static CALLS: LazyLock<Vec<Call>> = LazyLock::new(|| {
         Call::of::<washboard::Options>(),
         Call::of::<fit::Request>(),
         Call::of::<place::Request>(),
+        Call::of::<size::Options>(),
     ]
 });
 

@@ -7,6 +7,7 @@ use serde_json::{Map, Value};
 /// length. The other list is in the same block or in one around it, `a.b` in its block `a`. A list with a question mark may be empty.
 const TOGETHER: &[(&str, &[&str], &[&str])] = &[
     ("", &["board_deviation_m", "deflection_m"], &["rpm"]),
+    ("limits", &["margins"], &["values"]),
     ("response", &["board_deviation_m"], &["rpm"]),
     (
         "branches",

@@ -28,6 +28,7 @@ use super::place::{self, PlaceReport};
 use super::report::{self, DesignReport};
 use super::response::{self, ResponseReport};
 use super::runup::{self, RunUpReport};
+use super::size::{self, SizeReport};
 use super::study::{self, StudyReport};
 use super::tradeoff::Setting;
 use super::washboard::{self, WashboardReport};
@@ -310,6 +311,10 @@ commands! {
             "response-map" => runup::map_chart::chart,
             "runup-map" => runup::map_chart::stretched_chart,
         ],
+    }
+    "size", "size.json", SizeReport {
+        outline: size::outline,
+        figures: ["size" => size::chart::chart],
     }
     "study", "study.json", StudyReport {
         outline: study::outline,

@@ -37,6 +37,21 @@ impl SceneNumber {
     pub(crate) const DEPTH: Self =
         SceneNumber::new("depth_m", "depth", "cut.depth_m", "Depth of cut");
 
+    /// The limit of the first critical speed.
+    pub(crate) const MIN_CRITICAL: Self = SceneNumber::new(
+        "min_critical_rpm",
+        "min-critical",
+        "limits.min_critical_rpm",
+        "Lowest allowed first critical speed",
+    );
+    /// The limit of the deflection at the cut.
+    pub(crate) const MAX_DEVIATION: Self = SceneNumber::new(
+        "max_deviation_m",
+        "max-deviation",
+        "limits.max_deviation_m",
+        "Largest allowed deflection of the rim at the cut, at the operating speed",
+    );
+
     /// A number that needs no other argument.
     pub(crate) const fn new(
         name: &'static str,

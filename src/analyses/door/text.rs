@@ -25,16 +25,18 @@ impl Argument {
             }
         };
         match &self.kind {
+            // A bare number could be in metres, as in a scene, or in millimetres.
+            ArgumentKind::Number(_)
+                if self.unit() == "m" && text.trim().ends_with(|c: char| c.is_ascii_digit()) =>
+            {
+                Err("it must be a length with its unit; write it like 0.1mm".to_owned())
+            }
             ArgumentKind::Number(_) if !self.sets.is_empty() => {
                 number(Reading::of(&self.sets).and_then(|reading| reading.named(IT).number(text)))
             }
             ArgumentKind::Number(_) => match self.unit() {
                 "rpm" => {
                     number(Reading::of(SPEED).and_then(|reading| reading.named(IT).number(text)))
-                }
-                // A bare number could be in metres, as in a scene, or in millimetres.
-                "m" if text.trim().ends_with(|c: char| c.is_ascii_digit()) => {
-                    Err("it must be a length with its unit; write it like 0.1mm".to_owned())
                 }
                 unit => number(number_in(IT, unit, text)),
             },

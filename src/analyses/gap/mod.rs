@@ -77,7 +77,7 @@ pub fn gap(scene: &Scene, options: &Options) -> Result<GapReport, GapError> {
         .or(first.map(|critical| 0.5 * critical.speed_rad_per_s))
         .unwrap_or(analysis.range_rad_per_s.to_rad_per_s);
     let speed_rpm = rpm(speed);
-    let deviation = deviation_map(&analysis, speed_rpm, options.max_deviation_m)?;
+    let deviation = deviation_map(&analysis, speed_rpm, scene.limits().max_deviation_m)?;
     let oscillators = Oscillators::of(scene);
     let oscillation = oscillators
         .map(|all| oscillation(&analysis, &all, speed))

@@ -18,8 +18,6 @@ pub struct Options {
     pub gap_m: Option<f64>,
     /// Speed of the map over gap and force; by default the operating speed, or half of the first critical speed.
     pub rpm: Option<f64>,
-    /// Largest deflection at the cut that is allowed.
-    pub max_deviation_m: Option<f64>,
 }
 
 impl CommandOptions for Options {
@@ -27,6 +25,7 @@ impl CommandOptions for Options {
     const COMMAND: &str = "gap";
     const METHOD: &str = "run_gap";
     const SETS: &[SceneNumber] = &[
+        SceneNumber::MAX_DEVIATION,
         SceneNumber::FORCE,
         SceneNumber::new(
             "oscillating_force_n",
@@ -70,9 +69,6 @@ impl From<GapError> for CommandError {
     }
 }
 
-/// Largest limit of the deflection that is accepted; no blade deflects as far.
-const MAX_DEVIATION_M: f64 = 1.0;
-
 impl Options {
     /// Refuses invalid numbers, and a scene without a one-sided guide.
     ///
@@ -87,13 +83,6 @@ impl Options {
     pub(super) fn checked_still(&self, scene: &Scene) -> Result<(), RefusedValue> {
         if let Some(rpm) = self.rpm {
             speed_rad_per_s("rpm", rpm)?;
-        }
-        if let Some(limit) = self.max_deviation_m
-            && !(limit > 0.0 && limit <= MAX_DEVIATION_M)
-        {
-            let allowed = "above 0 and at most 1 m";
-            let remedy = "give the largest deflection allowed at the cut, such as 1e-4";
-            return Err(RefusedValue::new("max_deviation_m", limit, allowed, remedy));
         }
         let force_n = scene.file().side_force_n();
         if force_n == 0.0 {

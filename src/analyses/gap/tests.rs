@@ -42,12 +42,11 @@ fn the_mean_stiffness_is_the_first_harmonic_of_the_force() {
 #[test]
 #[cfg_attr(debug_assertions, ignore = "many eigenproblems: run it in release")]
 fn the_chart_over_the_amplitude_joins_the_free_blade_and_the_linear_one() {
-    let scene = lifting(4e-5);
-    let options = Options {
-        max_deviation_m: Some(3e-4),
-        ..Options::default()
-    };
-    let chart = gap(&scene, &options).unwrap();
+    let limited = lifting(4e-5).edited(|file| {
+        file.limits.get_or_insert_default().max_deviation_m = Some(3e-4);
+    });
+    let scene = limited.unwrap();
+    let chart = gap(&scene, &Options::default()).unwrap();
     let first = |at: &AtAmplitude| at.critical_rpm[0];
     let free = Scene::paper().edited(|file| {
         file.accuracy = Accuracy::Draft;
@@ -182,24 +181,11 @@ fn what_cannot_be_answered_is_refused() {
     let refused = options.checked(&Scene::paper()).unwrap_err();
     assert_eq!(refused.key, "guides[].contact");
     let scene = lifting(4e-5);
-    for (options, key) in [
-        (
-            Options {
-                rpm: Some(-1.0),
-                ..options
-            },
-            "rpm",
-        ),
-        (
-            Options {
-                max_deviation_m: Some(f64::NAN),
-                ..options
-            },
-            "max_deviation_m",
-        ),
-    ] {
-        assert_eq!(options.checked(&scene).unwrap_err().key, key);
-    }
+    let backwards = Options {
+        rpm: Some(-1.0),
+        ..options
+    };
+    assert_eq!(backwards.checked(&scene).unwrap_err().key, "rpm");
     let idle = scene.edited(|file| file.side_force = Some(SideForceFile::of(0.0)));
     let refused = options.checked(&idle.unwrap()).unwrap_err();
     assert_eq!(refused.key, "side_force.force_n");

@@ -30,25 +30,19 @@ pub struct GapDemands {
 
 impl GapDemands {
     /// Demands that bands and critical speeds are those with the mean stiffness of the guides over an oscillation of an
-    /// amplitude, and that the deflection at the cut under the side force of the scene at the operating speed keeps a limit; `None`
-    /// without amplitude and limit.
+    /// amplitude, and that the deflection at the cut under the side force of the scene at the operating speed keeps the scene's limit;
+    /// `None` without an amplitude, if the scene has no guide with a gap or no limit.
     ///
     /// # Errors
     /// [`RefusedValue`] if no guide is one-sided, or a number is invalid.
-    pub fn new(
-        scene: &Scene,
-        amplitude_m: Option<f64>,
-        max_deviation_m: Option<f64>,
-    ) -> Result<Option<Self>, RefusedValue> {
-        if amplitude_m.is_none() && max_deviation_m.is_none() {
+    pub fn new(scene: &Scene, amplitude_m: Option<f64>) -> Result<Option<Self>, RefusedValue> {
+        let max_deviation_m = scene.limits().max_deviation_m;
+        let is_limited = max_deviation_m.is_some() && scene.file().has_gaps();
+        if amplitude_m.is_none() && !is_limited {
             return Ok(None);
         }
-        let options = gap::Options {
-            max_deviation_m,
-            ..gap::Options::default()
-        };
         Ok(Some(GapDemands {
-            case: GapCase::new(scene, &options, amplitude_m)?,
+            case: GapCase::new(scene, &gap::Options::default(), amplitude_m)?,
             max_deflection_m: max_deviation_m,
         }))
     }
@@ -174,7 +168,7 @@ impl Default for Options {
             samples: 64,
             places: 3,
             refine: 60,
-            map: 17,
+            map: 0,
             resolution: None,
             tolerances: Tolerances::default(),
         }

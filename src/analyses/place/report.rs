@@ -235,6 +235,17 @@ impl PlaceReport {
                 _ => format!("{path} changes no critical speed and no band, and was kept"),
             });
         }
+        if self
+            .scene
+            .limits
+            .is_some_and(|limits| limits.max_deviation_m.is_some())
+            && !self.scene.has_gaps()
+        {
+            remarks.push(
+                "limits.max_deviation_m was not part of the search, because no guide has a gap: check the placed saw"
+                    .to_owned(),
+            );
+        }
         if !self.improved {
             remarks.push(self.not_improved().into());
         }

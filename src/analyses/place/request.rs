@@ -17,13 +17,9 @@ pub struct Request {
     pub free: Vec<NamedBounds>,
     /// Quantity to maximize: the flutter speed, or the stable window around the operating speed.
     pub goal: GoalName,
-    /// Lowest allowed first critical speed.
-    pub min_critical_rpm: Option<f64>,
     /// Amplitude at guides with a gap, with whose mean stiffness bands and critical speeds are computed; by default guides
     /// have their full stiffness.
     pub amplitude_m: Option<f64>,
-    /// Largest allowed deflection at the cut at the operating speed, with guides with a gap.
-    pub max_deviation_m: Option<f64>,
     /// Saws in the first sampling of the bounds.
     pub samples: usize,
     /// Steps of the refinement of each of the best places, each a saw and those around it.
@@ -57,9 +53,7 @@ impl Default for Request {
         Request {
             free: Vec::new(),
             goal: GoalName::Flutter,
-            min_critical_rpm: None,
             amplitude_m: None,
-            max_deviation_m: None,
             samples: options.samples,
             refine: options.refine,
             map: options.map,
@@ -75,10 +69,14 @@ impl CommandOptions for Request {
     type Report = PlaceReport;
     const COMMAND: &str = "place";
     const METHOD: &str = "place";
-    const SETS: &[SceneNumber] = &[SceneNumber {
-        requires: Some("max_deviation_m"),
-        ..SceneNumber::FORCE
-    }];
+    const SETS: &[SceneNumber] = &[
+        SceneNumber::MIN_CRITICAL,
+        SceneNumber::MAX_DEVIATION,
+        SceneNumber {
+            requires: Some("max_deviation_m"),
+            ..SceneNumber::FORCE
+        },
+    ];
 
     fn compute(&self, scene: &Scene, progress: Progress<'_>) -> Result<PlaceReport, CommandError> {
         let around_rpm = match self.goal {
@@ -86,8 +84,8 @@ impl CommandOptions for Request {
             GoalName::Window => Some(scene.needed_operating_rpm(None)?),
         };
         let demands = Demands {
-            gap: GapDemands::new(scene, self.amplitude_m, self.max_deviation_m)?,
-            ..Demands::new(around_rpm, self.min_critical_rpm)?
+            gap: GapDemands::new(scene, self.amplitude_m)?,
+            ..Demands::new(around_rpm, scene.limits().min_critical_rpm)?
         };
         let options = Options {
             samples: self.samples,

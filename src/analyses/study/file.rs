@@ -3,7 +3,6 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use crate::analyses::check::LimitsFile;
 use crate::model::scene::{RefusedValue, SceneError};
 use crate::page::text::{KeyedError, from_keyed_json};
 use crate::stability::AnalysisError;
@@ -29,9 +28,9 @@ pub struct StudyFile {
     /// Last speed of the sweep; by default the end of the scene's sweep. Limits at higher speeds extend the sweep.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub to_rpm: Option<f64>,
-    /// Limits of each saw, as for `sawflutter check`.
+    /// Limits of each saw, in place of those of the scene.
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub limits: Option<LimitsFile>,
+    pub limits: Option<StudyLimits>,
     /// Computations for guides with a gap; at least one guide of the scene is one-sided.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub gap: Option<GapFile>,
@@ -46,6 +45,24 @@ pub struct StudyFile {
     /// which the band counts; bands are separated by semicolons.
     #[serde(default, skip_serializing_if = "std::ops::Not::not")]
     pub bands: bool,
+}
+
+/// Limits of the saws of a study. An absent one is that of the scene, or of practice.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct StudyLimits {
+    /// Operating speed.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub operating_rpm: Option<f64>,
+    /// Largest ratio of the operating speed to the first critical speed.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub margin: Option<f64>,
+    /// Lower limit of the flutter speed.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub min_flutter_rpm: Option<f64>,
+    /// Lower limit of the first critical speed.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub min_critical_rpm: Option<f64>,
 }
 
 /// The deflection at the cut of a saw with guides with a gap under the side force of its scene, as of `sawflutter gap`.

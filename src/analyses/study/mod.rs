@@ -56,7 +56,9 @@ pub use self::{
     table::Table,
     tally::sum_up,
 };
-pub use file::{DistributionFile, GapFile, ParameterFile, StudyError, StudyFile, json_schema};
+pub use file::{
+    DistributionFile, GapFile, ParameterFile, StudyError, StudyFile, StudyLimits, json_schema,
+};
 #[doc(hidden)]
 pub(crate) use outline::{accuracy_of_saws, outline};
 #[cfg(feature = "parquet")]

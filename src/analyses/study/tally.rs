@@ -15,7 +15,6 @@ use super::rows::Rows;
 use super::saw::{Found, Saw};
 use super::table::Table;
 use crate::model::scene::rpm;
-use crate::stability::OPERATING_LIMIT;
 
 /// Largest number of saws that were not analysed in the list of the report; the table contains all.
 const LISTED: usize = 20;
@@ -201,9 +200,8 @@ impl<'a> Tally<'a> {
 }
 
 fn margin(study: &Study) -> f64 {
-    study
-        .limits()
-        .map_or(OPERATING_LIMIT, |limits| limits.margin)
+    let own = study.limits().map(|limits| limits.margin);
+    own.unwrap_or(study.scene().limits().margin())
 }
 
 /// Highest speed at which a saw keeps its margin and does not flutter; `None` if it exceeds the speeds of the

@@ -1,11 +1,11 @@
 //! Checks of a study's file.
 
 use super::distribution::Distribution;
-use super::file::{GapFile, StudyError, StudyFile};
+use super::file::{GapFile, StudyError, StudyFile, StudyLimits};
 use super::sequence::DIMENSIONS;
-use crate::analyses::check::{Limits, LimitsFile};
+use crate::analyses::check::Limits;
 use crate::analyses::gap::{self, GapCase};
-use crate::model::scene::{Given, Parameter, RefusedValue, Scene, SceneFile};
+use crate::model::scene::{Given, Parameter, RefusedValue, Scene, SceneError, SceneFile};
 
 /// Largest number of saws; their log has a size of about 600 GB.
 const MAX_SAWS: usize = u32::MAX as usize;
@@ -154,33 +154,53 @@ pub(super) fn check_statistics(file: &StudyFile) -> Result<(), StudyError> {
 }
 
 /// Validates the block `limits` of the study.
-pub(super) fn limits(file: &LimitsFile, scene: &Scene) -> Result<Limits, StudyError> {
+pub(super) fn limits(file: &StudyLimits, scene: &Scene) -> Result<Limits, StudyError> {
     let of_study = |refused: RefusedValue| RefusedValue {
-        key: format!("limits.{}", refused.key),
+        key: format!("limits.{}", refused.key.trim_start_matches("limits.")),
         ..refused
     };
-    Ok(file.limits(scene).map_err(of_study)?)
+    let limited = scene.edited(|scene| {
+        let limits = scene.limits.get_or_insert_default();
+        limits.margin = file.margin.or(limits.margin);
+        limits.min_flutter_rpm = file.min_flutter_rpm.or(limits.min_flutter_rpm);
+        limits.min_critical_rpm = file.min_critical_rpm.or(limits.min_critical_rpm);
+    });
+    let limited = limited.map_err(|error| match error {
+        SceneError::Value(refused) => StudyError::Value(of_study(refused)),
+        source => StudyError::Scene {
+            key: "limits".to_owned(),
+            source,
+        },
+    })?;
+    let operating_rpm = limited.needed_operating_rpm(file.operating_rpm);
+    let found = operating_rpm.and_then(|rpm| Limits::of(&limited, rpm));
+    Ok(found.map_err(of_study)?)
 }
 
 /// Validates the block `gap` of the study.
 pub(super) fn gap(file: &GapFile, scene: &Scene) -> Result<GapCase, StudyError> {
+    let in_mm = |key, given: f64| {
+        let (allowed, remedy) = (
+            "above 0 and at most 1000",
+            "give it in millimetres, such as 0.1",
+        );
+        RefusedValue::new(key, given, allowed, remedy)
+    };
     let options = gap::Options {
         rpm: file.rpm,
-        max_deviation_m: file.max_deviation_mm.map(|mm| 1e-3 * mm),
         ..gap::Options::default()
     };
-    let in_mm = |key, given: Option<f64>| {
-        let allowed = "above 0 and at most 1000";
-        let remedy = "give it in millimetres, such as 0.1";
-        RefusedValue::new(key, given.unwrap_or_default(), allowed, remedy)
-    };
+    if let Some(limit) = file.max_deviation_mm
+        && !(limit > 0.0 && limit <= 1e3)
+    {
+        return Err(in_mm("gap.max_deviation_mm", limit).into());
+    }
     let of_study = |refused: RefusedValue| match refused.key.as_str() {
         "rpm" => RefusedValue {
             key: "gap.rpm".into(),
             ..refused
         },
-        "max_deviation_m" => in_mm("gap.max_deviation_mm", file.max_deviation_mm),
-        "amplitude_m" => in_mm("gap.amplitude_mm", file.amplitude_mm),
+        "amplitude_m" => in_mm("gap.amplitude_mm", file.amplitude_mm.unwrap_or_default()),
         _ => refused,
     };
     let amplitude_m = file.amplitude_mm.map(|mm| 1e-3 * mm);

@@ -123,3 +123,17 @@ Examples:
 
 The cutting stiffness is the scene's `cut.washboarding`; `sawflutter schema`
 says what that may contain.";
+
+pub const SIZE: &str = "\
+Examples:
+  sawflutter size my-saw.json --vary blade.thickness_m # how thick?
+  sawflutter size my-saw.json --vary blade.thickness_m=1.8mm..3.2mm --rpm 2400
+  sawflutter size my-saw.json --vary operating_rpm=500..4000 # how fast?
+  sawflutter size my-saw.json --vary guides[0].radius_m # where?
+  sawflutter size my-saw.json --vary guides[*].gap_m --max-deviation 0.2mm
+                                       # how much may the guides wear?
+
+The limits are those of `check`: the scene's `limits`, or options. The saw with
+the value of the answer is sized-scene.json.
+
+Exit code: 0 some value keeps all limits, 1 none does, 2 the input was refused.";

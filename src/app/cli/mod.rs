@@ -28,7 +28,9 @@ mod tradeoff;
 use std::ffi::OsString;
 use std::path::Path;
 
-use crate::analyses::{check, cut, deflect, fit, gap, place, report, response, runup, washboard};
+use crate::analyses::{
+    check, cut, deflect, fit, gap, place, report, response, runup, size, washboard,
+};
 use crate::page::text::{printable, printable_line};
 use clap::{CommandFactory, Parser, Subcommand};
 
@@ -93,6 +95,9 @@ enum Command {
     /// Put the guides where flutter comes latest; place.json, a scene, a map
     #[command(after_help = examples::PLACE)]
     Place(Given<place::Request>),
+    /// How thick, how stiff, how fast? Values with which the saw keeps its limits; size.json, a figure
+    #[command(after_help = examples::SIZE)]
+    Size(Given<size::Options>),
     /// Vary a saw within tolerances or over a grid: quantiles and probability of passing
     #[command(after_help = study::EXAMPLES)]
     Study(study::Arguments),
@@ -199,6 +204,7 @@ fn command(command: Option<Command>) -> anyhow::Result<bool> {
         Some(Command::Tradeoff(arguments)) => tradeoff::run(&arguments),
         Some(Command::Export(arguments)) => export::run(&arguments),
         Some(Command::Place(arguments)) => return one_scene::run(&arguments),
+        Some(Command::Size(arguments)) => return one_scene::run(&arguments),
         Some(Command::Check(arguments)) => return one_scene::run(&arguments),
         Some(Command::Study(arguments)) => study::run(&arguments),
         Some(Command::Keys(arguments)) => keys::run(&arguments),

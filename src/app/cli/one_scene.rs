@@ -8,7 +8,9 @@ use crate::analyses::commands::{Call, CommandReport};
 use crate::analyses::door::{
     Argument, ArgumentKind, CommandError, CommandOptions, Entered, Step, entered,
 };
-use crate::analyses::{check, cut, deflect, fit, gap, place, report, response, runup, washboard};
+use crate::analyses::{
+    check, cut, deflect, fit, gap, place, report, response, runup, size, washboard,
+};
 use crate::model::scene::RefusedValue;
 use crate::page::text::{Kind, OtherEncodings};
 use clap::{Arg, ArgAction, ArgMatches, Args, FromArgMatches};
@@ -40,6 +42,7 @@ impl OneScene for report::Options {
 }
 impl OneScene for response::Options {}
 impl OneScene for runup::Options {}
+impl OneScene for size::Options {}
 impl OneScene for washboard::Options {}
 
 /// The arguments of a command as given.

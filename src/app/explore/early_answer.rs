@@ -4,7 +4,7 @@ use serde::Serialize;
 
 use super::answer::{Verdict, of_bands, of_critical};
 use crate::analyses::campbell::{InstabilityBand, OperatingPoint};
-use crate::model::scene::{Scene, rpm};
+use crate::model::scene::{LimitsFile, Scene, rpm};
 use crate::page::figure::{Band, Item, Upright};
 use crate::page::outline::Fact;
 use crate::stability::{Evidence, Instability, Interim, flutter_onsets};
@@ -53,12 +53,17 @@ impl Ahead {
                 threshold_per_s: scene.flutter_threshold_per_s(),
                 range_rad_per_s: interim.range_rad_per_s,
             };
-            ahead.add_bands(&evidence, operating);
+            ahead.add_bands(&evidence, operating, &scene.limits());
         }
         ahead
     }
 
-    fn add_bands(&mut self, evidence: &Evidence<'_>, operating_rad_per_s: Option<f64>) {
+    fn add_bands(
+        &mut self,
+        evidence: &Evidence<'_>,
+        operating_rad_per_s: Option<f64>,
+        limits: &LimitsFile,
+    ) {
         let threshold = evidence.threshold_per_s;
         let range_rpm = evidence.range_rad_per_s.ends().map(rpm);
         let shaded = |band: &Instability| {
@@ -71,7 +76,7 @@ impl Ahead {
         let growths = evidence.bands.iter().map(|band| band.peak_growth_per_s);
         self.facts.extend(of_bands(onsets, growths));
         self.verdict = operating_rad_per_s
-            .map(|speed| Verdict::early(&OperatingPoint::from_evidence(evidence, speed)));
+            .map(|speed| Verdict::early(&OperatingPoint::from_evidence(evidence, speed, limits)));
     }
 }
 

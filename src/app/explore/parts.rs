@@ -13,6 +13,7 @@ use crate::model::scene::{
     ResponseFile, RimFile, RollBandFile, Scene, SceneFile, StraightEdgeFile, SweepFile,
     TemperatureFile, TemperatureRow, ThicknessRow, WoodFile, typical_block, typical_value,
 };
+use crate::model::scene::{LimitsFile, USUAL_MARGIN};
 
 /// A request for a part.
 #[derive(Deserialize)]
@@ -51,6 +52,12 @@ fn add(scene: &mut SceneFile, path: &str, kind: &str) -> Option<()> {
         "friction" => {
             let coefficient = const { typical_value("friction.coefficient") };
             scene.friction = Some(FrictionFile::of(coefficient));
+        }
+        "limits" => {
+            scene.limits = Some(LimitsFile {
+                margin: Some(USUAL_MARGIN),
+                ..LimitsFile::default()
+            });
         }
         "excitation" => scene.excitation = Some(ExcitationFile::default()),
         "spline" => scene.spline = Some(SPLINE),
@@ -268,7 +275,8 @@ mod tests {
     use crate::app::explore::examples::examples;
     use crate::app::explore::needs::NEEDS;
 
-    const PARTS: [&str; 25] = [
+    const PARTS: [&str; 26] = [
+        "limits",
         "response",
         "damping.mode_ratios[]",
         "guides[]",

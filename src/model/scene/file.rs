@@ -12,6 +12,7 @@ use super::damping::DampingFile;
 use super::excitation::ExcitationFile;
 use super::friction::FrictionFile;
 use super::guide_file::{ContactLaw, GuideFile};
+use super::limits::LimitsFile;
 use super::membrane::MembraneFile;
 use super::quantities::typical_value;
 use super::response::ResponseFile;
@@ -54,6 +55,9 @@ pub struct SceneFile {
     /// Operating speed, to which the 85 % rule applies.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub operating_rpm: Option<f64>,
+    /// Limits that the saw has to keep; by default those of practice.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub limits: Option<LimitsFile>,
     /// Lines of the Campbell diagram at multiples of the rotation speed. None by default.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub excitation: Option<ExcitationFile>,

@@ -43,7 +43,7 @@ const COEFFICIENT: Span = Span::closed(-1e60, 1e60);
 /// built: diameters from 50 mm (slitting saws) to 4 m (stone saws), materials from aluminium to tungsten carbide, guides from
 /// felt to steel.
 #[rustfmt::skip]
-pub static QUANTITIES: [Quantity; 109] = [
+pub static QUANTITIES: [Quantity; 115] = [
     q("blade.outer_diameter_m", "outer diameter", "m", LENGTH, 0.04, 5.0),
     q("blade.inner_diameter_m", "bore diameter", "m", LENGTH, 0.003, 2.0),
     q("blade.thickness_m", "thickness of the blade", "m", THICKNESS, 1e-4, 0.04),
@@ -143,6 +143,14 @@ pub static QUANTITIES: [Quantity; 109] = [
     q("operating_rpm", "operating speed", "rpm", Span::above(0.0, 1e8), 30.0, 6e4)
         .typically(60.0, "m/s at the rim", 40.0, 100.0, "the paper's saw runs at 67 m/s; makers of carbide-tipped blades allow 100"),
     // More lines would hide the branches.
+    q("limits.margin", "margin to the first critical speed", "", Span::closed(1e-3, 1.0), 0.5, 1.0),
+    q("limits.min_critical_rpm", "lowest allowed first critical speed", "rpm", CUT_SPEED, 10.0, 1e5),
+    q("limits.min_flutter_rpm", "lowest allowed flutter speed", "rpm", CUT_SPEED, 10.0, 1e5),
+    // The upper end exceeds the speed of sound in steel.
+    q("limits.max_rim_m_per_s", "largest allowed speed of the rim", "m/s", Span::closed(1e-3, 1e4), 10.0, 300.0),
+    // No blade deflects farther.
+    q("limits.max_amplitude_m", "largest allowed amplitude of flutter", "m", Span::closed(1e-9, 1.0), 1e-6, 0.02),
+    q("limits.max_deviation_m", "largest allowed deflection at the cut", "m", Span::closed(1e-9, 1.0), 1e-6, 0.02),
     q("excitation.orders", "largest multiple of the speed", "", Span::closed(0.0, 60.0), 0.0, 60.0).of_kind(Kind::Count),
     q("excitation.tooth_passing", "largest multiple of tooth passing", "", Span::closed(0.0, 10.0), 0.0, 10.0).of_kind(Kind::Count),
     q("sweep.from_rpm", "first speed of the sweep", "rpm", SPEED, 0.0, 1e5),

@@ -77,6 +77,33 @@ class Axes {
   }
 }
 
+// The number to be sized: any that has a usual tolerance, or the operating speed; with or without bounds.
+class Sized {
+  #offered = "";
+  #number = node("select");
+  #bounds = node("input", { id: "size-bounds", type: "text", placeholder: "usual, or 1.8mm..3.2mm" });
+
+  constructor(place, usual) {
+    this.place = place;
+    this.usual = usual;
+  }
+
+  refresh(scene) {
+    const numbers = [...usualTolerances(this.usual, scene).map(([path]) => [path, placeOf(path)]), ["operating_rpm", "operating speed"]];
+    if (String(numbers) === this.#offered) return;
+    this.#offered = String(numbers);
+    const chosen = this.#number.value;
+    this.#number = menu("size-number", numbers);
+    if (numbers.some(([path]) => path === chosen)) this.#number.value = chosen;
+    this.place.replaceChildren(field("Number", this.#number), field("Bounds", this.#bounds));
+  }
+
+  get asked() {
+    const bounds = this.#bounds.value.trim();
+    return { options: { vary: bounds === "" ? this.#number.value : `${this.#number.value}=${bounds}` } };
+  }
+}
+
 class Goal {
   #goal = menu("place-goal", [["flutter", "largest flutter speed"], ["window", "widest stable window around the operating speed"]]);
   #least = node("input", { id: "place-least", type: "text", placeholder: "none" });
@@ -92,4 +119,4 @@ class Goal {
   }
 }
 
-export const INPUTS = { study: Tolerances, map: Axes, place: Goal };
+export const INPUTS = { study: Tolerances, map: Axes, place: Goal, size: Sized };

@@ -9,7 +9,7 @@ const TABS = [
   { name: "cut", title: "Cut", part: "cut", tasks: ["cut", "washboard"] },
   { name: "motion", title: "Run-up and response", part: "runup", tasks: ["runup", "response"] },
   { name: "guides", title: "Guides", part: "guides", tasks: ["gap", "fit", "place"] },
-  { name: "spread", title: "Tolerances and map", part: "blade", tasks: ["study", "map"] },
+  { name: "spread", title: "Size, tolerances, map", part: "blade", tasks: ["size", "study", "map"] },
 ];
 
 export class Tabs {

@@ -24,6 +24,7 @@ const TASKS = [
   { name: "gap", isBegun: true, title: "Gap", what: "Guides with a gap: critical speeds and flutter over the amplitude, and the deflection at the cut over gap and side force." },
   { name: "fit", title: "Fit", what: "Radius and stiffness of every guide from the measured frequencies of the scene; drop a table (rpm, then frequencies in Hz) on the page.", took: "Take the fitted saw" },
   { name: "place", title: "Place", what: "Radius, angle and stiffness of the first guide for the largest flutter speed.", took: "Take the best saw" },
+  { name: "size", title: "Size", what: "How thick, how stiff, how fast? The values of a number with which the saw keeps its limits at its operating speed.", took: "Take this saw" },
   { name: "study", title: "Tolerances", what: "Random saws within tolerances: how their critical and flutter speeds spread." },
   { name: "map", title: "Map", what: "Stable and unstable areas over one number and the speed, or over two numbers at the operating speed, within usual bounds: a radius anywhere on the blade, a stiffness within a factor of thirty, an angle within 60°, other numbers within 20 %." },
 ];

@@ -1,0 +1,111 @@
+//! A saw with another value of the number, and its distance from its limits.
+
+use crate::analyses::check::{CheckError, CheckReport, Criterion, Limits, check};
+use crate::model::scene::{Freed, Parameter, Scene, SceneError};
+use crate::modes::Cancellation;
+
+use super::SizeError;
+
+/// A checked saw.
+#[derive(Debug, Clone)]
+pub struct SizedSaw {
+    /// Value of the number.
+    pub value: f64,
+    /// The check; the reason for which the saw was refused, or could not be analysed.
+    pub found: Result<CheckReport, String>,
+}
+
+/// The question to every saw.
+#[derive(Debug, Clone, Copy)]
+pub struct Question<'a> {
+    pub scene: &'a Scene,
+    pub freed: &'a [Freed],
+    /// Relative tolerance of the critical speeds; that of the scene if it is absent.
+    pub tolerance: Option<f64>,
+}
+
+/// Distance that stands for a limit without one that is not kept, such as stability.
+const BROKEN: f64 = -1.0;
+
+impl Question<'_> {
+    /// Checks the saw with a value of the number.
+    ///
+    /// # Errors
+    /// [`SizeError`] if the computation was cancelled.
+    pub fn ask(&self, value: f64) -> Result<SizedSaw, SizeError> {
+        let found = self.scene_at(value).map_err(|error| error.to_string());
+        let found = found.and_then(|scene| {
+            let checked = |scene: &Scene| -> Result<CheckReport, CheckError> {
+                let rpm = scene.needed_operating_rpm(None).map_err(SceneError::from)?;
+                check(scene, &Limits::of(scene, rpm).map_err(SceneError::from)?)
+            };
+            checked(&scene).map_err(|error| error.to_string())
+        });
+        Cancellation::current().check()?;
+        Ok(SizedSaw { value, found })
+    }
+
+    /// The scene with a value of the number.
+    ///
+    /// # Errors
+    /// [`SceneError`] if it is refused.
+    pub fn scene_at(&self, value: f64) -> Result<Scene, SceneError> {
+        let numbers: Vec<(&Parameter, f64)> = self
+            .freed
+            .iter()
+            .map(|freed| (&freed.parameter, value))
+            .collect();
+        let scene = self.scene.file().with(&numbers)?;
+        match self.tolerance {
+            None => Ok(scene),
+            Some(_) => scene.edited(|file| file.tolerance = self.tolerance),
+        }
+    }
+}
+
+impl SizedSaw {
+    /// Whether all limits are kept.
+    pub fn is_kept(&self) -> bool {
+        let criteria = self.found.iter().flat_map(|report| &report.criteria);
+        self.found.is_ok() && criteria.clone().all(|criterion| criterion.passed)
+    }
+
+    /// Smallest distance from a limit, negative if one is not kept.
+    pub fn margin(&self) -> f64 {
+        let Ok(report) = &self.found else {
+            return BROKEN;
+        };
+        let all = report.criteria.iter().map(|criterion| {
+            let broken = if criterion.passed { 1.0 } else { BROKEN };
+            margin(report, criterion).unwrap_or(broken)
+        });
+        all.fold(1.0, f64::min)
+    }
+
+    /// The limit that is broken most, in words.
+    pub fn broken(&self) -> Option<String> {
+        let report = match &self.found {
+            Ok(report) => report,
+            Err(reason) => return Some(reason.clone()),
+        };
+        let broken = report.criteria.iter().filter(|criterion| !criterion.passed);
+        let depth = |criterion: &Criterion| margin(report, criterion).unwrap_or(BROKEN);
+        let worst = broken.min_by(|x, y| depth(x).total_cmp(&depth(y)))?;
+        Some(format!("{}: {}", worst.name, worst.finding))
+    }
+}
+
+/// Distance from a limit relative to it; `None` for a limit that is kept or not without a number.
+pub fn margin(report: &CheckReport, criterion: &Criterion) -> Option<f64> {
+    match criterion.key.as_str() {
+        "max_deviation" => {
+            let found = report.deviation.as_ref()?.deflection_m?;
+            let limit = report.scene.limits?.max_deviation_m?;
+            Some(limit / found - 1.0)
+        }
+        "margin" | "min_critical" | "min_flutter" | "rim_speed" => {
+            Some(criterion.found_rpm? / criterion.asked_rpm - 1.0)
+        }
+        _ => None,
+    }
+}
