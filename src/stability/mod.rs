@@ -50,8 +50,8 @@ mod undamped;
 mod undecided;
 mod verdict;
 
-pub use analysis::Analysis;
 pub(crate) use analysis::OPERATING_LIMIT;
+pub use analysis::{Analysis, Shortened};
 pub(crate) use band::CurvePoint;
 pub use band::{BandEnd, Instability};
 pub use basis::ChosenBasis;
