@@ -214,21 +214,21 @@ mod tests {
     #[test]
     fn a_coalescence_beyond_a_speed_of_growth_is_the_end_of_another_band() {
         let [inside, last, begin, end, next] = [
-            3809.456_322,
-            3809.477_4,
-            3809.455_887,
-            3809.477_443,
-            3809.481_727,
+            3809.456322,
+            3809.4774,
+            3809.455887,
+            3809.477443,
+            3809.481727,
         ];
         let of_begin = About {
             inside,
             expected: begin,
-            outside: 3809.425_840,
+            outside: 3809.42584,
         };
         let of_end = About {
             inside: last,
             expected: end,
-            outside: 3809.799_340,
+            outside: 3809.79934,
         };
         assert!(of_begin.may_end_at(begin) && of_end.may_end_at(end));
         assert!(!of_begin.may_end_at(next) && !of_begin.may_end_at(end));
