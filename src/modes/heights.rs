@@ -17,7 +17,7 @@ use crate::model::system::GyroscopicSystem;
 use crate::model::tuning::Tuned;
 
 /// Modes up to this multiple of the frequency of the highest reflected wave may coalesce with that wave.
-const REFLECTED_MARGIN: Tuned = Tuned::new("modes/heights::REFLECTED_MARGIN", 1.3);
+pub(super) const REFLECTED_MARGIN: Tuned = Tuned::new("modes/heights::REFLECTED_MARGIN", 1.3);
 
 /// A guided blade with the data for its lowest modes.
 pub struct Guided<'a> {

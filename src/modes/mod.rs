@@ -36,6 +36,7 @@ mod growth;
 mod half_order;
 mod heights;
 mod hermitian_inertia;
+mod kept_waves;
 mod lowest_modes;
 mod matrix_slope;
 mod mode;
@@ -82,6 +83,7 @@ pub(crate) use full_model::{AtSpeed, FullModel};
 pub use growth::fastest_growing;
 pub(crate) use growth::{Growing, eigenvalues, grows};
 pub(crate) use hermitian_inertia::negative_eigenvalues;
+pub(crate) use kept_waves::kept_waves;
 #[doc(hidden)]
 pub use lowest_modes::LowestModes;
 pub(crate) use matrix_slope::{Differences, matrix_slopes};

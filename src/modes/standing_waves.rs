@@ -153,8 +153,31 @@ pub fn highest_reflected(plate: &Plate, speed_rad_per_s: f64) -> Result<f64, Spe
     Ok(highest)
 }
 
+/// Frequencies in space of the waves of the free blade, among the harmonics of a plate, at a speed: |ω − nΩ| and ω + nΩ, ascending, in
+/// rad/s.
+///
+/// # Errors
+/// [`SpectrumError::Decomposition`].
+pub fn frequencies_in_space(
+    plate: &Plate,
+    speed_rad_per_s: f64,
+) -> Result<Vec<f64>, SpectrumError> {
+    let mut found = Vec::new();
+    for block in &plate.harmonics {
+        let turned = block.diameters as f64 * speed_rad_per_s;
+        for own in body_frequencies(block, speed_rad_per_s)? {
+            match block.diameters {
+                0 => found.push(own),
+                _ => found.extend([(own - turned).abs(), own + turned]),
+            }
+        }
+    }
+    found.sort_by(f64::total_cmp);
+    Ok(found)
+}
+
 /// Number of waves of the free blade, among the harmonics of a plate, whose frequency in space is within a window at a
-/// speed: |ω − nΩ| or ω + nΩ.
+/// speed.
 ///
 /// # Errors
 /// [`SpectrumError::Decomposition`].
@@ -163,17 +186,28 @@ pub fn waves_within(
     speed_rad_per_s: f64,
     window_rad_per_s: f64,
 ) -> Result<usize, SpectrumError> {
+    let all = frequencies_in_space(plate, speed_rad_per_s)?;
+    Ok(all.partition_point(|frequency| *frequency <= window_rad_per_s))
+}
+
+/// Number of waves with ω − nΩ below a cut, or reflected, at one of some speeds at least: a cosine and a sine each for n > 0.
+///
+/// # Errors
+/// [`SpectrumError::Decomposition`].
+pub fn waves_below(
+    plate: &Plate,
+    speeds_rad_per_s: &[f64],
+    cut_rad_per_s: f64,
+) -> Result<usize, SpectrumError> {
     let mut count = 0;
     for block in &plate.harmonics {
-        let turned = block.diameters as f64 * speed_rad_per_s;
-        let own = body_frequencies(block, speed_rad_per_s)?;
-        let in_space = own.into_iter().flat_map(|own| match block.diameters {
-            0 => vec![own],
-            _ => vec![(own - turned).abs(), own + turned],
-        });
-        count += in_space
-            .filter(|frequency| *frequency <= window_rad_per_s)
-            .count();
+        let mut most = 0;
+        for speed in speeds_rad_per_s {
+            let limit = block.diameters as f64 * speed + cut_rad_per_s;
+            let own = body_frequencies(block, *speed)?;
+            most = most.max(own.partition_point(|frequency| *frequency < limit));
+        }
+        count += most * (1 + usize::from(block.diameters > 0));
     }
     Ok(count)
 }

@@ -96,6 +96,17 @@ pub struct Analysis {
     pub idling: Option<Onsets>,
     /// Crossings of the excitation lines with branches, by line and speed.
     pub crossings: Vec<Crossing>,
+    /// Why the sweep that the program chose ends earlier than usual, if the chart of the usual one was refused.
+    pub shortened: Option<Shortened>,
+}
+
+/// Limit at which a sweep that the program chooses ends.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Shortened {
+    /// Memory for the modes of the chart.
+    Memory,
+    /// Processor time of the search for bands.
+    Time,
 }
 
 /// The light gap of a scene with a straight edge.
@@ -132,18 +143,25 @@ impl Analysis {
     ) -> Result<Self, AnalysisError> {
         let chosen = ChosenBasis::at_least(scene, scene.tolerance(), options.least_size)?;
         let least = chosen.saw.plate.resolution;
-        let end_rad_per_s = match Self::on_basis(scene, chosen, options) {
+        let (shortened, end_rad_per_s) = match Self::on_basis(scene, chosen, options) {
             // If the scene gives no end of the sweep, the program chooses one up to which it can compute the
             // diagram.
             Err(AnalysisError::Campbell(CampbellError::TooLarge {
                 largest_end_rpm: Some(end),
                 ..
-            })) if scene.sweep().is_none() => rad_per_s(end),
+            })) if scene.sweep().is_none() => (Shortened::Memory, rad_per_s(end)),
+            Err(AnalysisError::TooLong { limit_rpm, .. }) if scene.sweep().is_none() => {
+                (Shortened::Time, rad_per_s(limit_rpm))
+            }
             analysed => return analysed,
         };
         let shorter = scene.swept(SpeedRange::new(0.0, end_rad_per_s))?;
         let chosen = ChosenBasis::at_least(&shorter, scene.tolerance(), least)?;
-        Self::on_basis(scene, chosen, options)
+        let analysis = Self::on_basis(scene, chosen, options)?;
+        Ok(Analysis {
+            shortened: Some(shortened),
+            ..analysis
+        })
     }
 
     fn on_basis(
@@ -154,11 +172,10 @@ impl Analysis {
         let detail = options.detail;
         if detail == Detail::Full {
             check_room(&chosen)?;
-        }
-        if let Some(tell) = options.expected {
-            ExpectedWork::of_sweep(scene, &chosen)
-                .into_iter()
-                .for_each(tell);
+            let expected = ExpectedWork::allowed(scene, &chosen)?;
+            if let Some(tell) = options.expected {
+                tell(expected);
+            }
         }
         let straight_edge = straight_edge(scene)?;
         let ChosenBasis {
@@ -217,6 +234,7 @@ impl Analysis {
         };
         let analysis = Analysis {
             straight_edge,
+            shortened: None,
             scene: scene.clone(),
             estimated_relative_error: Some(estimated_relative_error),
             estimates: Some(estimates),

@@ -1,5 +1,6 @@
 //! Errors of an analysis.
 
+use super::expected_work::in_words;
 use crate::model::plate::MOST_DIAMETERS;
 use crate::model::scene::SceneError;
 use crate::modes::SpectrumError;
@@ -56,6 +57,24 @@ pub enum AnalysisError {
         /// Smallest number of their nodal diameters.
         diameters: usize,
     },
+    /// The search for bands would take too long.
+    #[error(
+        "{key} must be at most {} (you gave {}): the search for bands over {critical_speeds} critical speeds would take about {} of processor time, more than {}; end the sweep there, and chart the speeds above in a sweep of their own, by sweep.from_rpm", shown(*.limit_rpm), shown(*.to_rpm), in_words(*.needed_s), in_words(*.allowed_s)
+    )]
+    TooLong {
+        /// Key or argument that requires a speed.
+        key: &'static str,
+        /// Its value.
+        to_rpm: f64,
+        /// Largest value allowed.
+        limit_rpm: f64,
+        /// Number of critical speeds within the sweep.
+        critical_speeds: usize,
+        /// Estimated processor time, in seconds.
+        needed_s: f64,
+        /// Processor time allowed, in seconds.
+        allowed_s: f64,
+    },
     /// The first critical speed belongs to a wave missing from the largest basis.
     #[error(
         "the waves that stand still at the first critical speed have up to {diameters} nodal diameters, more than the {MOST_DIAMETERS} of the largest basis: the blade is too narrow outside its flange; lower mount.diameter_m"
@@ -78,6 +97,12 @@ impl AnalysisError {
             limit_rpm,
         }
         | AnalysisError::Unresolved {
+            key,
+            to_rpm,
+            limit_rpm,
+            ..
+        }
+        | AnalysisError::TooLong {
             key,
             to_rpm,
             limit_rpm,

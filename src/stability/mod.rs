@@ -50,7 +50,7 @@ mod undamped;
 mod undecided;
 mod verdict;
 
-pub use analysis::Analysis;
+pub use analysis::{Analysis, Shortened};
 pub(crate) use band::CurvePoint;
 pub use band::{BandEnd, Instability};
 pub use basis::ChosenBasis;

@@ -418,3 +418,37 @@ fn closest_opposite(modes: &[Mode]) -> impl Iterator<Item = [&Mode; 2]> {
     pairs.sort_by(|x, y| apart(x).total_cmp(&apart(y)));
     pairs.into_iter()
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::model::scene::{Accuracy, SpeedRange};
+
+    /// Newton's method leads from a speed beside each onset to the coalescence at the onset, which is not one at that speed.
+    #[test]
+    fn a_coalescence_at_another_speed_is_not_the_onset_of_a_band() {
+        let draft = Scene::paper().edited(|saw| saw.accuracy = Accuracy::Draft);
+        let range = SpeedRange::between_rpm(0.0, 3000.0);
+        let analysis = Analysis::new(&draft.unwrap().swept(range).unwrap()).unwrap();
+        let flutter = |band: &&Instability| band.kind == InstabilityKind::Flutter && band.closed;
+        let bands: Vec<&Instability> = analysis.bands().iter().filter(flutter).collect();
+        assert!(bands.len() > 2, "{}", bands.len());
+        for band in bands {
+            let at = |share: f64| {
+                let moved = Instability {
+                    from_rad_per_s: share * band.from_rad_per_s,
+                    ..band.clone()
+                };
+                Merging::coalescing(&analysis.model, &moved).unwrap()
+            };
+            let found = at(1.0).expect("the onset").speed;
+            assert!(
+                (found / band.from_rad_per_s - 1.0).abs() < 1e-9,
+                "{band}: {found}"
+            );
+            for share in [1.0 - 1e-4, 1.0 + 1e-4] {
+                assert!(at(share).is_none(), "{band} {share}");
+            }
+        }
+    }
+}

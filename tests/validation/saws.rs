@@ -64,6 +64,7 @@ pub fn dense_analysis(
     let model = SpectralModel::new(plate, range, Strategy::Dense).unwrap();
     let chart = chart(&model, range, speeds, &|_, _| ()).unwrap();
     Analysis {
+        shortened: None,
         model,
         range_rad_per_s: range,
         complete_to_rad_per_s: range.to_rad_per_s,

@@ -6,7 +6,7 @@ use crate::model::plate::{MembraneSource, Plate};
 use crate::model::scene::{Blade, Bore, Guide, PadLaw, Scene, SceneFile, rpm};
 use crate::modes::DescribedMode;
 use crate::page::text::{shown, shown_to};
-use crate::stability::{Analysis, CHARTED, CRITICAL_MARGIN, is_cut_short, usual_end};
+use crate::stability::{Analysis, CHARTED, CRITICAL_MARGIN, Shortened, is_cut_short, usual_end};
 
 use super::certificate::BandCertificate;
 use super::pad_places::{beside_the_blade, overlapping};
@@ -207,6 +207,9 @@ fn ended_early(scene: &Scene, analysis: &Analysis, listed_critical: usize) -> Op
         format!(
             "{listed_critical} critical speeds are below its end; name sweep.to_rpm for a longer one"
         )
+    } else if analysis.shortened == Some(Shortened::Time) {
+        "the search for bands would take more than five minutes of processor time; name sweep.from_rpm and sweep.to_rpm to chart the speeds above"
+            .to_owned()
     } else {
         "the modes of so many speeds would not fit into the memory allowed; a coarser accuracy permits a longer sweep".to_owned()
     };

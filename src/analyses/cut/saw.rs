@@ -34,7 +34,8 @@ pub(super) struct SawInCut<'a> {
 /// Number of modes of the idle and of the cutting saw in the basis.
 pub(super) const MODES: usize = 14;
 /// The same number for the record. A force that begins or ends excites all modes: on a basis of 150 functions the records of three
-/// saws at the probe differ from those of all functions by up to 6 % of their largest value with 14 modes, by up to 1.5 % with 28.
+/// saws at the probe differ from those of all functions by up to 6 % of their largest value with 14 modes, by up to 1.5 % with 28; on
+/// bases of 700 functions those of three saws differ by 0.7, 0.13 and 0.01 % with 42.
 const RECORDED_MODES: usize = 42;
 
 impl<'a> SawInCut<'a> {

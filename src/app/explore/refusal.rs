@@ -60,9 +60,9 @@ impl From<CommandError> for Refusal {
 impl From<AnalysisError> for Refusal {
     fn from(error: AnalysisError) -> Self {
         let key = match &error {
-            AnalysisError::Unresolved { key, .. } | AnalysisError::Overstretched { key, .. } => {
-                Some((*key).to_owned())
-            }
+            AnalysisError::Unresolved { key, .. }
+            | AnalysisError::Overstretched { key, .. }
+            | AnalysisError::TooLong { key, .. } => Some((*key).to_owned()),
             AnalysisError::TooNarrow { .. } => Some("mount.diameter_m".to_owned()),
             _ => None,
         };

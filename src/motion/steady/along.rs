@@ -55,11 +55,19 @@ impl<'a> Along<'a> {
             balance,
             motion,
         };
-        for k in 0..LEAST_TIMES {
-            let phase = TAU * k as f64 / LEAST_TIMES as f64;
-            let share = Scale(1.0 / LEAST_TIMES as f64);
-            along.mean += share * along.stiffness_at(phase);
+        let at: Mat<f64> = Mat::from_fn(balance.width(), LEAST_TIMES, |k, time| {
+            function(k, TAU * time as f64 / LEAST_TIMES as f64)
+        });
+        let states = &motion.0 * at;
+        let equal = Mat::full(LEAST_TIMES, 1, 1.0 / LEAST_TIMES as f64);
+        // The first function of the stiffness of cubic forces is its mean.
+        let mut means = along.cubic.subcols(0, 1).to_owned();
+        for term in balance.terms.iter().filter(|term| !term.is_cubic) {
+            means += term.force.stiffness_sums(&states, &equal);
         }
+        along.mean = Mat::from_fn(order, order, |i, j| {
+            balance.stiffness[(i, j)] + means[(j * order + i, 0)]
+        });
         let squares = symmetric_eigenvalues(along.mean.as_ref()).ok()?;
         let natural = squares.iter().take(RESOLVED);
         let natural = natural.map(|square| square.abs().sqrt());

@@ -90,10 +90,16 @@ impl Reader {
         let rim: Vec<Cubic> = (0..AROUND)
             .map(|place| Cubic::new([0, 1, 2, 3].map(|k| rim[(place, k)])))
             .collect();
-        let largest = rim.iter().map(Cubic::largest);
-        let at_share = largest
-            .max_by(|x, y| x.1.total_cmp(&y.1))
-            .map_or(1.0, |x| x.0);
+        let (mut at_share, mut most) = (1.0, f64::NEG_INFINITY);
+        for cubic in &rim {
+            if cubic.bound() < most {
+                continue;
+            }
+            let (share, size) = cubic.largest();
+            if size.total_cmp(&most).is_ge() {
+                (at_share, most) = (share, size);
+            }
+        }
         let around: Vec<f64> = rim.iter().map(|cubic| cubic.at(at_share)).collect();
         Deflections {
             at_probe_m: at_probe.at(1.0),
@@ -125,6 +131,14 @@ impl Cubic {
             3.0 * change - 2.0 * leaves - arrives,
             leaves + arrives - 2.0 * change,
         ])
+    }
+
+    /// A magnitude that the deflection does not exceed in the step: Hermite's functions of both deflections are positive with the sum
+    /// one, and those of both changes are at most 4/27.
+    fn bound(&self) -> f64 {
+        let Cubic([a, b, c, d]) = self;
+        let arrives = b + 2.0 * c + 3.0 * d;
+        a.abs().max(self.at(1.0).abs()) + 4.0 / 27.0 * (b.abs() + arrives.abs())
     }
 
     fn at(&self, share: f64) -> f64 {
@@ -210,6 +224,7 @@ mod tests {
             assert!((found - 1.0).abs() < 3e-3, "{begun}: {found}");
             assert!((cubic.at(share).abs() - found).abs() < 1e-15);
             assert_eq!(cubic.at(0.0), at(begun));
+            assert!(cubic.bound() >= found);
         }
         assert_eq!(Cubic::new([2.0, 0.0, 2.0, 0.0]).largest().1, 2.0);
         assert!(

@@ -38,6 +38,19 @@ impl Force for ReducedStretching {
             *stiffness += hessian;
         }
     }
+
+    fn forces_at(&self, displacements: &Mat<f64>) -> Mat<f64> {
+        match self.gradients(displacements) {
+            Ok(gradients) => Scale(-1.0) * gradients,
+            Err(_) => Mat::full(displacements.nrows(), displacements.ncols(), f64::NAN),
+        }
+    }
+
+    fn stiffness_sums(&self, displacements: &Mat<f64>, weights: &Mat<f64>) -> Mat<f64> {
+        let order = displacements.nrows();
+        let sums = self.hessian_sums(displacements, weights);
+        sums.unwrap_or_else(|_| Mat::zeros(order * order, weights.ncols()))
+    }
 }
 
 impl Force for GapPotential {

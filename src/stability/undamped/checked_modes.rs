@@ -40,6 +40,13 @@ struct Tally {
 
 /// A growing eigenvalue at more than this share of its expected growth from the expected one may be another.
 const SAME_GROWTH: f64 = 0.1;
+/// Whether a growing λ may be an expected one: the frequencies, by the real parts of λ² and thus by the means of the coalescing pairs,
+/// differ by no more than the faster growth of both. Next to a coalescence these means are smooth, while the expected growth may be
+/// far from the true one, which rises like a square root.
+fn may_be(square: c64, expected: c64) -> bool {
+    let [found, wanted] = [square, expected].map(|square| square.sqrt());
+    (square - expected).re.abs() <= found.re.max(wanted.re) * (found.norm() + wanted.norm())
+}
 
 fn sample(solved: &ModesAt) -> Sample {
     Sample::of_modes(solved.speed_rad_per_s, solved.modes.iter())
@@ -65,9 +72,8 @@ impl Numbers for CheckedModes<'_> {
         }
         let sample = self.at(speed_rad_per_s)?;
         let growing = sample.quadruples().chain(sample.divergences());
-        Ok(smallest(growing, |(square, _)| {
-            (square.sqrt() - wanted).norm()
-        }))
+        let nearest = smallest(growing, |(square, _)| (square.sqrt() - wanted).norm());
+        Ok(nearest.filter(|(square, _)| may_be(*square, wanted * wanted)))
     }
 
     fn note_interpolated(&self) {
@@ -285,5 +291,38 @@ impl<'a> CheckedModes<'a> {
             others.extend(solved);
         }
         Ok(samples)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::model::scene::{Scene, SpeedRange, rad_per_s};
+    use crate::stability::Analysis;
+
+    /// At 2260 rpm one vibration grows, with 0.4 1/s at 6 Hz. One that is expected at 40 Hz is not this one.
+    #[test]
+    fn a_growing_mode_far_from_the_expected_one_is_not_taken_for_it() {
+        let scene = Scene::paper()
+            .swept(SpeedRange::between_rpm(0.0, 2300.0))
+            .unwrap();
+        let analysis = Analysis::new(&scene).unwrap();
+        let checked = CheckedModes::new(&analysis.model, Extent::Bands);
+        let speed = rad_per_s(2260.0);
+        let (exact, _) = checked.at(speed).unwrap().quadruples().next().unwrap();
+        let near = |share: f64| {
+            let lambda = exact.sqrt();
+            c64::new(share * lambda.re, lambda.im).powi(2)
+        };
+        for expected in [near(0.9), near(0.1)] {
+            let (found, _) = checked.nearest(speed, expected).unwrap().unwrap();
+            assert!(
+                (found - exact).norm() < 1e-6 * exact.norm(),
+                "{found} {exact}"
+            );
+        }
+        let other = c64::new(0.05, std::f64::consts::TAU * 40.0).powi(2);
+        let found = checked.nearest(speed, other).unwrap();
+        assert!(found.is_none(), "{found:?}");
     }
 }

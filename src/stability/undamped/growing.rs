@@ -90,7 +90,9 @@ fn confirmed(
     };
     let ends = [(stretch.begin, first), (stretch.end, last)]
         .map(|(bound, inside)| end(checked, stretch, bound, inside));
-    Ok(Some(GrowingStretch {
+    // Ends in the wrong order are within the rounding of one speed.
+    let is_inverted = ends[1].speed() < ends[0].speed();
+    Ok((!is_inverted).then_some(GrowingStretch {
         kind: stretch.kind,
         ends,
         points,
@@ -132,6 +134,33 @@ fn is_expected(kind: InstabilityKind, (square, _): &Sloped, expected: c64) -> bo
 const SAME_END: f64 = 0.1;
 /// Allowed shift of an edge in the models of the search, relative to the speed.
 const VICINITY: f64 = 3e-5;
+/// Relative distance from a coalescence within which rounding may let a number seem to grow.
+const ROUNDED: f64 = 1e-8;
+
+/// Speeds about an end of an interval.
+struct About {
+    /// A speed at which the number grows.
+    inside: f64,
+    /// Speed of the end by interpolation.
+    expected: f64,
+    /// Nearest speed of the search outside the interval.
+    outside: f64,
+}
+
+impl About {
+    /// Whether a coalescence may be the end. The number grows at the inner speed, so that one beyond that speed, within a narrow interval
+    /// or behind it, is the end of another number.
+    fn may_end_at(&self, speed: f64) -> bool {
+        let direction = (self.outside - self.inside).signum();
+        let margin = VICINITY * self.expected;
+        let way = (self.expected - self.inside).abs();
+        let beyond = (speed - self.outside) * direction;
+        let before = (self.inside - speed) * direction;
+        (speed - self.expected).abs() <= SAME_END * way + margin
+            && beyond <= margin
+            && before <= ROUNDED * self.expected
+    }
+}
 
 /// End of an interval whose number is known at an inner speed.
 fn end(checked: &CheckedModes<'_>, stretch: &Stretch<'_>, bound: Bound, point: CurvePoint) -> End {
@@ -149,17 +178,17 @@ fn end(checked: &CheckedModes<'_>, stretch: &Stretch<'_>, bound: Bound, point: C
     let square = stretch.square(expected).unwrap_or(point.number).re;
     // Where two real λ coalesce, the growth of the quadruple is their mean. In every other case the slope of the faster of both is unbounded.
     let is_mean = stretch.kind == InstabilityKind::Flutter && square > 0.0;
-    let direction = (outside - inside).signum();
-    let margin = VICINITY * expected;
+    let about = About {
+        inside,
+        expected,
+        outside,
+    };
     let is_same = |found: &DoubleEigenvalue| {
-        let off = (found.speed_rad_per_s - expected).abs();
-        let beyond = (found.speed_rad_per_s - outside) * direction;
-        let before = (inside - found.speed_rad_per_s) * direction;
         // ((λ₁ − λ₂)/2)² is negative, −ω², only for a quadruple next to two real λ.
         let sign = if is_mean { 1.0 } else { -1.0 };
+        let direction = (outside - inside).signum();
         let is_outwards = found.square_slope * direction * sign > 0.0;
-        let way = (expected - inside).abs();
-        off <= SAME_END * way + margin && before.max(beyond) <= margin && is_outwards
+        about.may_end_at(found.speed_rad_per_s) && is_outwards
     };
     let found = checked.double_eigenvalue(expected, c64::new(square, 0.0).sqrt());
     match found.filter(is_same) {
@@ -179,6 +208,32 @@ mod tests {
     use crate::model::scene::{Accuracy, Scene, SpeedRange, rad_per_s, rpm};
     use crate::modes::companion_eigenpairs;
     use crate::stability::{Analysis, Onsets};
+
+    /// A ring with 46 critical speeds within 1000 rpm, in rad/s: its waves grow from 3809.4559 to 3809.4774, and another pair begins to
+    /// grow at 3809.4817.
+    #[test]
+    fn a_coalescence_beyond_a_speed_of_growth_is_the_end_of_another_band() {
+        let [inside, last, begin, end, next] = [
+            3809.456322,
+            3809.4774,
+            3809.455887,
+            3809.477443,
+            3809.481727,
+        ];
+        let of_begin = About {
+            inside,
+            expected: begin,
+            outside: 3809.42584,
+        };
+        let of_end = About {
+            inside: last,
+            expected: end,
+            outside: 3809.79934,
+        };
+        assert!(of_begin.may_end_at(begin) && of_end.may_end_at(end));
+        assert!(!of_begin.may_end_at(next) && !of_begin.may_end_at(end));
+        assert!(!of_end.may_end_at(begin));
+    }
 
     /// Two opposed pads leave the waves of even and odd n uncoupled: a growing real λ of one family crosses that of the other near
     /// 2106 and 3003 rpm. Reference: dense eigenvalues.

@@ -368,6 +368,15 @@ impl Point {
         left.into_iter().chain(right)
     }
 
+    /// Sum of a quantity over the sides that the pad has, from the sign of the deflection that closes the gap on a side.
+    fn over_sides(&self, of: impl Fn(f64) -> f64) -> f64 {
+        match self.side {
+            GuideSide::Both => of(1.0) + of(-1.0),
+            GuideSide::Left => of(1.0),
+            GuideSide::Right => of(-1.0),
+        }
+    }
+
     /// Energy kΨ, summed over the sides of the pad.
     fn energy_j(&self, w: f64) -> f64 {
         let width = ROUNDED * self.gap_m;
@@ -376,7 +385,7 @@ impl Point {
             x if x < width => (x + width).powi(3) / (12.0 * width),
             x => 0.5 * x * x + width * width / 6.0,
         };
-        self.stiffness_n_per_m * self.sides().map(of).sum::<f64>()
+        self.stiffness_n_per_m * self.over_sides(of)
     }
 
     /// Derivative of the energy, kΨ′, which has the sign of w.
@@ -387,7 +396,7 @@ impl Point {
             x if x < width => side * (x + width).powi(2) / (4.0 * width),
             x => side * x,
         };
-        self.stiffness_n_per_m * self.sides().map(of).sum::<f64>()
+        self.stiffness_n_per_m * self.over_sides(of)
     }
 
     /// Second derivative of the energy, kΨ″.
@@ -398,7 +407,7 @@ impl Point {
             x if x < width => (x + width) / (2.0 * width),
             _ => 1.0,
         };
-        self.stiffness_n_per_m * self.sides().map(of).sum::<f64>()
+        self.stiffness_n_per_m * self.over_sides(of)
     }
 
     /// Integral ∫₀¹ f(s, w + s d) ds of a function that is zero within the gap and a polynomial of degree at most

@@ -185,6 +185,26 @@ fn the_reduced_form_is_the_potential_on_its_shapes() {
             hessian_error < 1e-12 * hessian.norm_l2(),
             "{hessian_error:e}"
         );
+        let many = Mat::from_fn(7, 3, |k, time| 1e-3 * (1.0 + (k + 5 * time) as f64).cos());
+        let weights = Mat::from_fn(3, 2, |time, k| (1.0 + (time + 2 * k) as f64).sin());
+        let gradients = reduced.gradients(&many).unwrap();
+        let sums = reduced.hessian_sums(&many, &weights).unwrap();
+        let mut exact_sums = vec![Mat::<f64>::zeros(7, 7); 2];
+        for time in 0..3 {
+            let q = &shapes * many.col(time);
+            let gradient = shapes.transpose() * stretching.gradient(&q).unwrap();
+            let error = (gradients.col(time) - &gradient).norm_l2();
+            assert!(error < 1e-12 * gradient.norm_l2(), "{error:e}");
+            let hessian = shapes.transpose() * stretching.hessian(&q).unwrap() * &shapes;
+            for (k, sum) in exact_sums.iter_mut().enumerate() {
+                *sum += faer::Scale(weights[(time, k)]) * &hessian;
+            }
+        }
+        for (k, exact) in exact_sums.iter().enumerate() {
+            let found = Mat::from_fn(7, 7, |i, j| sums[(7 * j + i, k)]);
+            let error = (found - exact).norm_l2();
+            assert!(error < 1e-12 * exact.norm_l2(), "{error:e}");
+        }
     }
 }
 

@@ -80,6 +80,52 @@ impl ReducedStretching {
         Ok(self.hessian_with(&self.tension(coordinates)?))
     }
 
+    /// [`ReducedStretching::gradient`] at many coordinates, a column each.
+    ///
+    /// # Errors
+    /// [`StretchingError::Length`].
+    pub fn gradients(&self, coordinates: &Mat<f64>) -> Result<Mat<f64>, StretchingError> {
+        let tensions = &self.quartic * self.all_products(coordinates)?;
+        let mut gradients = Mat::zeros(self.order, coordinates.ncols());
+        for (k, mut gradient) in gradients.col_iter_mut().enumerate() {
+            let tension = tensions.col(k).to_owned();
+            gradient.copy_from(self.gradient_with(&coordinates.col(k).to_owned(), &tension));
+        }
+        Ok(gradients)
+    }
+
+    /// Weighted sums of [`ReducedStretching::hessian`] over many coordinates: one for each column of `weights`, with the columns of the
+    /// matrix below each other. The derivatives are linear in the products z, so that these are summed first.
+    ///
+    /// # Errors
+    /// [`StretchingError::Length`].
+    pub fn hessian_sums(
+        &self,
+        coordinates: &Mat<f64>,
+        weights: &Mat<f64>,
+    ) -> Result<Mat<f64>, StretchingError> {
+        let tensions = &self.quartic * (self.all_products(coordinates)? * weights);
+        let mut sums = Mat::zeros(self.order * self.order, weights.ncols());
+        for (tension, mut sum) in tensions.col_iter().zip(sums.col_iter_mut()) {
+            let hessian = self.hessian_with(&tension.to_owned());
+            for j in 0..self.order {
+                sum.as_mut()
+                    .subrows_mut(j * self.order, self.order)
+                    .copy_from(hessian.col(j));
+            }
+        }
+        Ok(sums)
+    }
+
+    /// Products z of many coordinates, a column each.
+    fn all_products(&self, coordinates: &Mat<f64>) -> Result<Mat<f64>, StretchingError> {
+        let mut all = Mat::zeros(self.quartic.nrows(), coordinates.ncols());
+        for (p, mut products) in coordinates.col_iter().zip(all.col_iter_mut()) {
+            products.copy_from(self.products(&p.to_owned())?);
+        }
+        Ok(all)
+    }
+
     /// Tension Qz of each pair, with which [`ReducedStretching::energy_with`] and others need no product of order r⁴.
     ///
     /// # Errors
