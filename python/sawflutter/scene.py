@@ -709,7 +709,7 @@ class Scene(Drawn, Mapping[str, Value]):
         amplitude_m: Number | None = None,
         samples: SupportsIndex = 64,
         refine: SupportsIndex = 60,
-        map: SupportsIndex = 17,
+        map: SupportsIndex = 0,
         radius_tolerance_m: Number = 0.002,
         angle_tolerance_deg: Number = 1.0,
         guide_tolerance_share: Number = 0.1,

@@ -47,15 +47,30 @@ def test_a_number_in_another_unit_fails_a_check_unless_it_is_accepted(draft: sf.
     assert accepted.passed and accepted.failures == ()
 
 
+def test_a_sized_number_is_where_a_check_passes(draft: sf.Scene) -> None:
+    saw = draft.replace({"operating_rpm": 1300, "sweep": None})
+    found = saw.size({"blade.thickness_m": ("2 mm", "3.2 mm")}, points=5)
+    (window,) = found.windows
+    assert window.above is None and "85 % rule" in (window.below or "")
+    for thickness_m, passes in [(window.from_, True), (0.999 * window.from_, False)]:
+        assert bool(saw.replace({"blade.thickness_m": thickness_m}).check()) is passes
+    assert found.answer is not None and found.answer.value == 0.0028
+    assert found.saw["blade"]["thickness_m"] == 0.0028
+    assert found.plot_matplotlib() is not None
+    with pytest.raises(sf.ArgumentError, match="one number"):
+        saw.size(["blade.thickness_m", "guides[0].radius_m"])
+
+
 def test_limits_that_no_check_has_are_refused(draft: sf.Scene) -> None:
     for arguments, key in [
         ({"operating_rpm": -3.0}, "operating_rpm"),
         ({"operating_rpm": float("nan")}, "operating_rpm"),
-        ({"margin": 1.2}, "margin"),
-        ({"min_flutter_rpm": 0.0}, "min_flutter_rpm"),
-        ({"min_critical_rpm": float("inf")}, "min_critical_rpm"),
+        ({"margin": 1.2}, "limits.margin"),
+        ({"min_flutter_rpm": 0.0}, "limits.min_flutter_rpm"),
+        ({"min_critical_rpm": float("inf")}, "limits.min_critical_rpm"),
+        ({"max_deviation_m": -1e-4}, "limits.max_deviation_m"),
     ]:
-        with pytest.raises(sf.ArgumentError) as caught:
+        with pytest.raises(sf.InputError) as caught:
             draft.check(**arguments)  # type: ignore[arg-type]
         assert caught.value.key == key
         assert caught.value.allowed is not None and caught.value.allowed in str(caught.value)

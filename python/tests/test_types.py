@@ -26,7 +26,7 @@ def test_the_generated_types_are_up_to_date(monkeypatch: pytest.MonkeyPatch) -> 
 def test_every_object_of_the_reports_has_a_class_with_a_docstring() -> None:
     reports = json.loads(_native.schema())["reports"]
     assert set(reports) == {
-        "analyze", "check", "compare", "cut", "deflect", "fit", "gap", "map", "modes", "place", "report", "response", "runup", "study",
+        "analyze", "check", "compare", "cut", "deflect", "fit", "gap", "map", "modes", "place", "report", "response", "runup", "size", "study",
         "tradeoff", "washboard",
     }  # fmt: skip
     for name in vars(_report_types):
