@@ -75,6 +75,7 @@ pub fn size(
         scene,
         freed,
         tolerance: None,
+        is_whole: false,
     };
     let quick = Question {
         tolerance: (tolerance > scene.tolerance()).then_some(tolerance),
@@ -105,7 +106,11 @@ pub fn size(
         })
         .collect::<Result<Vec<_>, SizeError>>()?;
     let windows = windows(&saws, &found);
-    let answer = answer(&exact, &windows, of_scene)?;
+    let whole = Question {
+        is_whole: true,
+        ..exact
+    };
+    let answer = answer(&whole, &windows, of_scene)?;
     let described = answer.as_ref().map(|(_, report)| report.warnings.clone());
     let mut warnings = described.unwrap_or_default();
     let refused = saws.iter().filter_map(|saw| saw.found.as_ref().err());
@@ -243,7 +248,11 @@ fn answer(
         let (Ok(report), Ok(scene)) = (&saw.found, question.scene_at(value)) else {
             continue;
         };
-        let more = question.ask((1.0 + PERCENT) * value)?.found.ok();
+        let more = Question {
+            is_whole: false,
+            ..*question
+        };
+        let more = more.ask((1.0 + PERCENT) * value)?.found.ok();
         let critical = |report: &CheckReport| {
             let mut criteria = report.criteria.iter();
             criteria.find(|of| of.key == "margin")?.found_rpm

@@ -1,7 +1,7 @@
 //! A saw with another value of the number, and its distance from its limits.
 
 use crate::analyses::check::{CheckError, CheckReport, Criterion, Limits, check};
-use crate::model::scene::{Freed, Parameter, Scene, SceneError};
+use crate::model::scene::{Freed, Parameter, Scene, SceneError, SweepFile};
 use crate::modes::Cancellation;
 
 use super::SizeError;
@@ -22,6 +22,8 @@ pub struct Question<'a> {
     pub freed: &'a [Freed],
     /// Relative tolerance of the critical speeds; that of the scene if it is absent.
     pub tolerance: Option<f64>,
+    /// Whether bands are searched over the whole sweep, and not only as far as the limits require.
+    pub is_whole: bool,
 }
 
 /// Distance that stands for a limit without one that is not kept, such as stability.
@@ -34,15 +36,26 @@ impl Question<'_> {
     /// [`SizeError`] if the computation was cancelled.
     pub fn ask(&self, value: f64) -> Result<SizedSaw, SizeError> {
         let found = self.scene_at(value).map_err(|error| error.to_string());
-        let found = found.and_then(|scene| {
-            let checked = |scene: &Scene| -> Result<CheckReport, CheckError> {
-                let rpm = scene.needed_operating_rpm(None).map_err(SceneError::from)?;
-                check(scene, &Limits::of(scene, rpm).map_err(SceneError::from)?)
-            };
-            checked(&scene).map_err(|error| error.to_string())
-        });
+        let found = found.and_then(|scene| self.checked(&scene).map_err(|error| error.to_string()));
         Cancellation::current().check()?;
         Ok(SizedSaw { value, found })
+    }
+
+    fn checked(&self, scene: &Scene) -> Result<CheckReport, CheckError> {
+        let rpm = scene.needed_operating_rpm(None).map_err(SceneError::from)?;
+        let limits = Limits::of(scene, rpm).map_err(SceneError::from)?;
+        if self.is_whole {
+            return check(scene, &limits);
+        }
+        // A check goes on to the speeds that its limits require.
+        let short = scene.edited(|file| {
+            file.tolerance = self.tolerance.or(file.tolerance);
+            file.sweep = Some(SweepFile {
+                from_rpm: 0.0,
+                to_rpm: rpm,
+            });
+        });
+        check(&short?, &limits)
     }
 
     /// The scene with a value of the number.
@@ -55,11 +68,7 @@ impl Question<'_> {
             .iter()
             .map(|freed| (&freed.parameter, value))
             .collect();
-        let scene = self.scene.file().with(&numbers)?;
-        match self.tolerance {
-            None => Ok(scene),
-            Some(_) => scene.edited(|file| file.tolerance = self.tolerance),
-        }
+        self.scene.file().with(&numbers)
     }
 }
 
