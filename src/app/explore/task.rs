@@ -104,19 +104,23 @@ fn one(
     answer(&*report, json, scene.as_ref())
 }
 
-/// A refusal that says what an argument means in place of its name.
+/// A refusal that says what an argument means in place of its name, or of the path of the number that it sets.
 fn in_words(arguments: &[Argument], error: CommandError) -> Refusal {
-    match error {
-        CommandError::Refused(refused) if !refused.is_missing() => {
-            match arguments.iter().find(|of| of.name == refused.key) {
-                Some(argument) => {
-                    let key = argument.about.clone();
-                    Refusal::of(&RefusedValue { key, ..refused })
-                }
-                None => refused.into(),
-            }
+    let refused = match error {
+        CommandError::Refused(refused) if !refused.is_missing() => refused,
+        CommandError::Set {
+            source: SceneError::Value(refused),
+            ..
+        } => refused,
+        other => return other.into(),
+    };
+    let is_own = |of: &&Argument| of.name == refused.key || of.sets == refused.key;
+    match arguments.iter().find(is_own) {
+        Some(argument) => {
+            let key = argument.about.clone();
+            Refusal::of(&RefusedValue { key, ..refused })
         }
-        other => other.into(),
+        None => refused.into(),
     }
 }
 
