@@ -12,6 +12,7 @@ mod common;
 mod annulus;
 mod at_rest;
 mod chosen_sweep;
+mod clamp;
 mod collar_saw;
 mod damping;
 mod edge_load;

@@ -17,7 +17,7 @@ pub struct HarmonicBlock {
     /// Number of nodal diameters n.
     pub diameters: usize,
     /// K_b: ∫ D/ρh₀ [κ_r² + κ_θ² + 2ν κ_r κ_θ + 2(1−ν) κ_rθ²] r dr, in 1/s², with the reference thickness h₀
-    /// of the mass.
+    /// of the mass; and the clamp, k/ρh₀ a R′R′ at a, if it yields to a slope.
     pub bending: DMatrix<f64>,
     /// K_σ − N: ∫ h/h₀ [σ̂_rr R′R′ + n² σ̂_θθ RR/r²] r dr − n² δ, dimensionless (times Ω²).
     pub spin: DMatrix<f64>,
@@ -74,6 +74,12 @@ impl HarmonicBlock {
                     spin[(j, k)] += tensioned * tension;
                 }
             }
+        }
+        if let Some(clamp) = blade.clamp_n_m_per_rad_per_m {
+            let edge = blade.inner_radius_m;
+            let slope = DVector::from_vec(basis.evaluate(diameters, edge).slope);
+            let specific = clamp * edge / blade.mass_per_area_kg_per_m2();
+            bending.ger(specific, &slope, &slope, 1.0);
         }
         let mut block = HarmonicBlock {
             diameters,

@@ -69,6 +69,7 @@ impl StraightEdge {
             blade: Blade {
                 inner_radius_m: bore,
                 bore: Bore::Free,
+                clamp_n_m_per_rad_per_m: None,
                 ..*blade
             },
             end_radius_m: on_blade("length_m", typed.length_m, 2.0, whole)?,

@@ -82,11 +82,12 @@ fn blade(file: &SceneFile) -> Result<Blade, SceneError> {
             remedy,
         ));
     }
-    let (inner, bore) = match file.mount {
-        Mount::Spline {} => (bore_diameter, Bore::Free),
+    let (inner, bore, clamp) = match file.mount {
+        Mount::Spline {} => (bore_diameter, Bore::Free, None),
         Mount::Collar {
             diameter_m,
             in_plane,
+            clamp_stiffness_n_m_per_rad_per_m: clamp,
         } => {
             if !(bore_diameter..outer).contains(&diameter_m) {
                 let allowed = format!(
@@ -97,7 +98,7 @@ fn blade(file: &SceneFile) -> Result<Blade, SceneError> {
                 let remedy = "give the outer diameter of the collar";
                 return Err(refuse("mount.diameter_m", diameter_m, allowed, remedy));
             }
-            (diameter_m, Bore::Clamped(in_plane))
+            (diameter_m, Bore::Clamped(in_plane), clamp)
         }
     };
     if inner > 0.999 * outer {
@@ -123,6 +124,7 @@ fn blade(file: &SceneFile) -> Result<Blade, SceneError> {
         rim: None,
         material: typed.material,
         bore,
+        clamp_n_m_per_rad_per_m: clamp,
     };
     Ok(Blade {
         profile: ThicknessProfile::new(
