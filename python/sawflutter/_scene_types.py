@@ -55,6 +55,32 @@ class RimDict(_RimDict, total=False):
     """Distance of the circle from the axis; by default the radius of the rim."""
 
 
+class _SlotsDict(TypedDict):
+    """Radial slots, equal and evenly spaced, from the rim inwards."""
+
+    count: int
+    """Number of slots."""
+
+    depth_m: float
+    """Distance from the rim to the end of a slot."""
+
+
+class SlotsDict(_SlotsDict, total=False):
+    """Radial slots, equal and evenly spaced, from the rim inwards."""
+
+    width_m: float | None
+    """Width of a slot. Slots are cuts of width zero in the model; a width of 1 mm changes
+    frequencies by 1 %, so that no larger one is allowed."""
+
+    inclination_deg: float | None
+    """Angle between a slot and the radius. Slots are radial in the model; 20° changes
+    frequencies by 1 %, so that no larger angle is allowed."""
+
+    hole_diameter_m: float | None
+    """Diameter of the hole at the end of a slot. Holes are not modelled yet, so that only 0 is
+    allowed."""
+
+
 class _BladeDict(TypedDict):
     """An annular blade."""
 
@@ -86,6 +112,9 @@ class BladeDict(_BladeDict, total=False):
 
     rim: RimDict | None
     """Mass of teeth or carbide tips. None by default."""
+
+    slots: SlotsDict | None
+    """Slots from the rim inwards, such as expansion slots. None by default."""
 
 
 class MountSplineDict(TypedDict):
@@ -961,7 +990,9 @@ class StudyDict(_StudyDict, total=False):
 
 NumberPath: TypeAlias = Literal[
     "blade.outer_diameter_m", "blade.inner_diameter_m", "blade.thickness_m", "blade.teeth",
-    "blade.rim.mass_per_tooth_kg", "blade.rim.radius_m", "blade.material.youngs_modulus_pa",
+    "blade.rim.mass_per_tooth_kg", "blade.rim.radius_m", "blade.slots.count",
+    "blade.slots.depth_m", "blade.slots.width_m", "blade.slots.inclination_deg",
+    "blade.slots.hole_diameter_m", "blade.material.youngs_modulus_pa",
     "blade.material.poisson_ratio", "blade.material.density_kg_per_m3", "mount.diameter_m",
     "mount.clamp_stiffness_n_m_per_rad_per_m", "guides[0].radius_m", "guides[1].radius_m",
     "guides[2].radius_m", "guides[3].radius_m", "guides[0].angle_deg", "guides[1].angle_deg",

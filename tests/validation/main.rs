@@ -36,6 +36,7 @@ mod run_up;
 mod saws;
 mod sensitivity;
 mod shapes;
+mod slots;
 mod spline;
 mod static_deflection;
 mod thickness_profile;

@@ -7,6 +7,7 @@ use serde::{Deserialize, Serialize};
 
 use super::SceneError;
 use super::rule::{needed_teeth, refuse};
+use super::slots::{Slots, SlotsFile};
 use super::thickness::{ThicknessProfile, ThicknessRow};
 use crate::page::text::shown;
 
@@ -31,6 +32,9 @@ pub struct BladeFile {
     /// Mass of teeth or carbide tips. None by default.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub rim: Option<RimFile>,
+    /// Slots from the rim inwards, such as expansion slots. None by default.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub slots: Option<SlotsFile>,
     /// Linear elastic, isotropic material.
     pub material: Material,
 }
@@ -101,6 +105,8 @@ pub struct Blade {
     pub(crate) profile: Option<ThicknessProfile>,
     /// Mass of teeth and tips.
     pub(crate) rim: Option<RimMass>,
+    /// Slots from the rim inwards.
+    pub slots: Option<Slots>,
     /// Material of the blade.
     pub material: Material,
     /// Boundary condition at r = a.

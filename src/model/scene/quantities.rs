@@ -45,7 +45,7 @@ const COEFFICIENT: Span = Span::closed(-1e60, 1e60);
 /// built: diameters from 50 mm (slitting saws) to 4 m (stone saws), materials from aluminium to tungsten carbide, guides from
 /// felt to steel.
 #[rustfmt::skip]
-pub static QUANTITIES: [Quantity; 110] = [
+pub static QUANTITIES: [Quantity; 115] = [
     q("blade.outer_diameter_m", "outer diameter", "m", LENGTH, 0.04, 5.0),
     q("blade.inner_diameter_m", "bore diameter", "m", LENGTH, 0.003, 2.0),
     q("blade.thickness_m", "thickness of the blade", "m", THICKNESS, 1e-4, 0.04),
@@ -57,6 +57,12 @@ pub static QUANTITIES: [Quantity; 110] = [
     // No tooth is heavier.
     q("blade.rim.mass_per_tooth_kg", "mass of a tooth", "kg", Span::closed(0.0, 1e3), 1e-6, 10.0),
     q("blade.rim.radius_m", "radius of the mass of teeth", "m", RADIUS, 0.02, 2.5).of_kind(Kind::Radius),
+    // Segments of the largest stone saws; the mesh between two slots grows with their distance.
+    q("blade.slots.count", "number of slots", "", Span::closed(1.0, 500.0), 2.0, 100.0).of_kind(Kind::Count),
+    q("blade.slots.depth_m", "depth of the slots", "m", LENGTH, 1e-3, 0.5),
+    q("blade.slots.width_m", "width of the slots", "m", Span::closed(0.0, 1e-3), 1e-5, 1e-3),
+    q("blade.slots.inclination_deg", "inclination of the slots", "°", Span::closed(-20.0, 20.0), -20.0, 20.0),
+    q("blade.slots.hole_diameter_m", "diameter of the slots' holes", "m", LENGTH_OR_NONE, 1e-3, 0.05),
     // From rubber to ten times diamond.
     q("blade.material.youngs_modulus_pa", "Young's modulus", "Pa", Span::closed(1e7, 1e13), 4e10, 7.5e11),
     // The limits of an isotropic material.

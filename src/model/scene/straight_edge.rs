@@ -69,6 +69,7 @@ impl StraightEdge {
             blade: Blade {
                 inner_radius_m: bore,
                 bore: Bore::Free,
+                slots: None,
                 clamp_n_m_per_rad_per_m: None,
                 ..*blade
             },

@@ -5,6 +5,7 @@ use super::cut::Cut;
 use super::guide::guide;
 use super::membrane::Membrane;
 use super::rule::{MAX_GUIDES, refuse};
+use super::slots::Slots;
 use super::speed_range::check_rise;
 use super::thickness::ThicknessProfile;
 use super::{
@@ -122,6 +123,7 @@ fn blade(file: &SceneFile) -> Result<Blade, SceneError> {
         thickness_m,
         profile: None,
         rim: None,
+        slots: None,
         material: typed.material,
         bore,
         clamp_n_m_per_rad_per_m: clamp,
@@ -134,6 +136,7 @@ fn blade(file: &SceneFile) -> Result<Blade, SceneError> {
             plain.outer_radius_m,
         )?,
         rim: RimMass::new(typed, &plain)?,
+        slots: Slots::new(file, &plain)?,
         ..plain
     })
 }
