@@ -10,7 +10,9 @@ use crate::common::{Worst, assert_close, reference_model, relative_error, scene,
 use faer::Side;
 use sawflutter::analyses::check::{Limits, check};
 use sawflutter::model::plate::{Plate, Resolution};
-use sawflutter::model::scene::{Accuracy, InPlane, Mount, Scene, SlotsFile, rad_per_s, rpm};
+use sawflutter::model::scene::{
+    Accuracy, InPlane, Mount, Scene, SceneFile, SlotsFile, rad_per_s, rpm,
+};
 use sawflutter::stability::{Analysis, StabilityState};
 use serde::Deserialize;
 
@@ -273,6 +275,51 @@ fn slots_without_depth_change_nothing() {
         for rpm in [0.0, 3000.0] {
             let [found, expected] = [&slotted, &plain].map(|plate| lowest_hz(plate, n, rpm));
             assert_close(&format!("n = {n} at {rpm} rpm"), found, expected, 2e-4);
+        }
+    }
+}
+
+/// The same of a blade with steps, heavy teeth, a clamp that yields, or on a spline.
+#[test]
+fn slots_without_depth_change_no_blade() {
+    let changes: [fn(&mut SceneFile); 4] = [
+        |saw| {
+            saw.blade.profile = serde_json::from_str(r#"[{ "radius_m": 0.12, "thickness_m": 0.0016 }, { "radius_m": 0.18, "thickness_m": 0.0016 }]"#).unwrap()
+        },
+        |saw| {
+            saw.blade.rim =
+                serde_json::from_str(r#"{ "mass_per_tooth_kg": 0.01, "radius_m": 0.19 }"#).unwrap()
+        },
+        |saw| {
+            saw.mount = Mount::Collar {
+                diameter_m: 0.1,
+                in_plane: InPlane::Free,
+                clamp_stiffness_n_m_per_rad_per_m: Some(1e4),
+            };
+        },
+        |saw| saw.mount = Mount::Spline {},
+    ];
+    for (k, change) in changes.into_iter().enumerate() {
+        let plates = [None, Some((4, 0.001))].map(|slots| {
+            let saw = saw(slots).edited(change).unwrap();
+            Plate::new(&saw, Resolution::of(Accuracy::Reference))
+        });
+        for n in 0..8 {
+            for speed in [0.0, 3000.0] {
+                let [expected, found] = plates.each_ref().map(|plate| {
+                    let stiffness = plate.harmonics[n].body_frame_stiffness(rad_per_s(speed));
+                    let squares = stiffness.self_adjoint_eigenvalues(Side::Lower).unwrap();
+                    // Heave and tilt do not bend a blade on a spline.
+                    let rigid = usize::from(k == 3 && n < 2);
+                    squares[rigid].sqrt() / TAU
+                });
+                assert_close(
+                    &format!("blade {k}, n = {n} at {speed} rpm"),
+                    found,
+                    expected,
+                    1e-3,
+                );
+            }
         }
     }
 }

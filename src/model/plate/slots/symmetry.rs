@@ -41,9 +41,10 @@ impl Class {
     pub fn all(count: usize, most: usize) -> Vec<Class> {
         let phases = 0..=most.min(count / 2);
         let of_phase = |phase: usize| {
-            let parts = match (2 * phase).is_multiple_of(count) {
-                true => vec![Some(Part::Even), Some(Part::Odd)],
-                false => vec![None],
+            let parts = if (2 * phase).is_multiple_of(count) {
+                vec![Some(Part::Even), Some(Part::Odd)]
+            } else {
+                vec![None]
             };
             parts.into_iter().map(move |alone| Class {
                 phase,
