@@ -4,7 +4,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::rule::refuse;
-use super::{Blade, RefusedValue, SceneError, SceneFile};
+use super::{RefusedValue, SceneError};
 use crate::page::text::shown_to;
 
 /// Radial slots, equal and evenly spaced, from the rim inwards.
@@ -42,13 +42,20 @@ const DEPTHS: [f64; 2] = [0.005, 0.9];
 /// Least arc of the rim between two slots, in thicknesses of the blade and in widths of a slot.
 const LEAST_SPACING: f64 = 2.0;
 
+/// The moving ring that has slots.
+pub(super) struct SlottedRing {
+    /// Radii of its inner edge and of the rim.
+    pub radii_m: [f64; 2],
+    /// Its thickness.
+    pub thickness_m: f64,
+    /// Whether the scene has stress of heat, rolling or manufacture.
+    pub has_membrane: bool,
+}
+
 impl Slots {
-    /// Validates the slots of a blade; `None` if there are none.
-    pub(super) fn new(file: &SceneFile, blade: &Blade) -> Result<Option<Self>, SceneError> {
-        let Some(typed) = file.blade.slots else {
-            return Ok(None);
-        };
-        let (inner, outer) = (blade.inner_radius_m, blade.outer_radius_m);
+    /// Validates the slots of a ring.
+    pub(super) fn new(typed: SlotsFile, ring: &SlottedRing) -> Result<Self, SceneError> {
+        let ([inner, outer], thickness_m) = (ring.radii_m, ring.thickness_m);
         let [least, most] = DEPTHS.map(|share| share * (outer - inner));
         if !(least..=most).contains(&typed.depth_m) {
             let allowed = format!(
@@ -67,9 +74,8 @@ impl Slots {
             ));
         }
         let spacing = std::f64::consts::TAU * (outer - typed.depth_m) / f64::from(typed.count);
-        if spacing < LEAST_SPACING * blade.thickness_m {
-            let most =
-                (f64::from(typed.count) * spacing / (LEAST_SPACING * blade.thickness_m)).floor();
+        if spacing < LEAST_SPACING * thickness_m {
+            let most = (f64::from(typed.count) * spacing / (LEAST_SPACING * thickness_m)).floor();
             let allowed = format!(
                 "at most {}, so that the ends of slots are {LEAST_SPACING} thicknesses apart",
                 shown_to(4, most)
@@ -98,15 +104,15 @@ impl Slots {
             let remedy = "leave the hole out, and count on critical speeds 2 to 7 % lower than computed for one of 8 mm";
             return Err(refuse("blade.slots.hole_diameter_m", hole, allowed, remedy));
         }
-        if file.membrane.is_some() {
+        if ring.has_membrane {
             let allowed = "left out beside blade.slots: heat, roll tension and residual stress of a slotted blade are not modelled yet";
             let remedy =
                 "leave out membrane or blade.slots; slots take most of the hoop stress at the rim";
             return Err(RefusedValue::new("membrane", "given", allowed, remedy).into());
         }
-        Ok(Some(Slots {
+        Ok(Slots {
             count: typed.count,
             depth_m: typed.depth_m,
-        }))
+        })
     }
 }

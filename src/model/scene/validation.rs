@@ -5,7 +5,7 @@ use super::cut::Cut;
 use super::guide::guide;
 use super::membrane::Membrane;
 use super::rule::{MAX_GUIDES, refuse};
-use super::slots::Slots;
+use super::slots::{Slots, SlottedRing};
 use super::speed_range::check_rise;
 use super::thickness::ThicknessProfile;
 use super::{
@@ -128,6 +128,11 @@ fn blade(file: &SceneFile) -> Result<Blade, SceneError> {
         bore,
         clamp_n_m_per_rad_per_m: clamp,
     };
+    let ring = SlottedRing {
+        radii_m: [plain.inner_radius_m, plain.outer_radius_m],
+        thickness_m,
+        has_membrane: file.membrane.is_some(),
+    };
     Ok(Blade {
         profile: ThicknessProfile::new(
             &typed.profile,
@@ -136,7 +141,10 @@ fn blade(file: &SceneFile) -> Result<Blade, SceneError> {
             plain.outer_radius_m,
         )?,
         rim: RimMass::new(typed, &plain)?,
-        slots: Slots::new(file, &plain)?,
+        slots: typed
+            .slots
+            .map(|slots| Slots::new(slots, &ring))
+            .transpose()?,
         ..plain
     })
 }
