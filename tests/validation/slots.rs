@@ -279,7 +279,7 @@ fn slots_without_depth_change_nothing() {
     }
 }
 
-/// The same of a blade with steps, heavy teeth, a clamp that yields, or on a spline.
+/// A blade with steps, heavy teeth, a clamp that yields, or on a spline is that without slots, too.
 #[test]
 fn slots_without_depth_change_no_blade() {
     let changes: [fn(&mut SceneFile); 4] = [

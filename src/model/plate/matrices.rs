@@ -55,7 +55,7 @@ pub(super) fn sampled_radii(blade: &Blade) -> Vec<f64> {
 }
 
 impl Plate {
-    /// What slots do to the blade; `None` if it has none.
+    /// Bending stiffness and stress of a slotted blade; `None` without slots.
     pub fn slotted(&self) -> Option<&SlottedBlade> {
         self.spinning.slotted()
     }

@@ -82,7 +82,7 @@ impl CentrifugalStress {
         }
     }
 
-    /// What slots do to the blade; `None` if it has none.
+    /// Bending stiffness and stress of a slotted blade; `None` without slots.
     pub(super) fn slotted(&self) -> Option<&SlottedBlade> {
         match self {
             Self::Slotted(slotted) => Some(slotted),

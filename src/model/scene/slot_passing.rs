@@ -22,7 +22,7 @@ const WELL_INSIDE_M: f64 = 0.03;
 const WELL_INSIDE: f64 = 0.15;
 
 impl SlotPassing {
-    /// What a verdict says of speeds that are not covered.
+    /// The reason of a verdict at a speed that is not covered.
     pub fn in_words(self) -> &'static str {
         match self {
             SlotPassing::Inside => {

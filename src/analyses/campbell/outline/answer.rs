@@ -144,7 +144,7 @@ fn failed(report: &Report) -> String {
     format!("{statement}; a shorter sweep or another accuracy may avoid this")
 }
 
-/// What slots that pass guides leave open.
+/// The reason for which a saw whose slots pass guides is not called stable.
 fn passing(report: &Report) -> &'static str {
     (report.scene.slot_passing()).map_or("slots pass guides", SlotPassing::in_words)
 }

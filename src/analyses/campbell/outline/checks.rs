@@ -5,7 +5,7 @@ use crate::analyses::campbell::{BandCertificate, Report};
 use crate::page::outline::{Outline, PERCENT};
 use crate::page::text::shown_to;
 
-/// What is said of a saw whose scene has no slots: nearly every production blade has some, and its critical speeds are lower.
+/// Remark on a scene without slots: nearly every production blade has some, and its critical speeds are lower.
 const PLAIN_BLADE: &str = "Plain blade without slots: if the saw has some, give blade.slots, which lowers its critical speeds";
 
 /// Adds the checks in one line and the estimated error; the certificate and the backward errors are details.

@@ -57,7 +57,7 @@ pub fn lagrange(x: f64, l: f64) -> Functions<3> {
     ]
 }
 
-/// What the blade is at a radius, and what holds and loads a circle.
+/// Material, thickness, clamp and teeth of a ring.
 pub trait Ring {
     /// Poisson's ratio.
     fn poisson_ratio(&self) -> f64;

@@ -1,4 +1,4 @@
-//! Slots of the rim: what they take of the stiffness of a blade, and the stress of a slotted blade in rotation.
+//! Slots of the rim: bending stiffness of a slotted blade relative to a plain one, and its stress in rotation.
 //!
 //! A blade with N radial slots of width zero and depth L from the rim is a Kirchhoff plate with cuts. Its bending is computed at
 //! rest, by conforming elements of Bogner, Fox and Schmit on half a pitch, with the symmetry of waves (`symmetry`), and gives for
@@ -35,7 +35,7 @@ const DIAMETERS: (usize, usize) = (12, 24);
 /// Blades kept, so that scenes that differ in other things share the work.
 const KEPT: usize = 16;
 
-/// What slots do to a blade.
+/// Bending stiffness and stress of a slotted blade.
 #[derive(Debug, Clone, PartialEq)]
 pub struct SlottedBlade {
     /// The mean around of the stress of rotation.
