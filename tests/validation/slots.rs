@@ -9,9 +9,10 @@ use std::f64::consts::TAU;
 use crate::common::{Worst, assert_close, reference_model, relative_error, scene, table};
 use faer::Side;
 use sawflutter::analyses::check::{Limits, check};
+use sawflutter::analyses::fit::{Measurement, Options, fit};
 use sawflutter::model::plate::{Plate, Resolution};
 use sawflutter::model::scene::{
-    Accuracy, InPlane, Mount, Scene, SceneFile, SlotsFile, rad_per_s, rpm,
+    Accuracy, Freed, InPlane, Mount, Scene, SceneFile, SlotsFile, rad_per_s, rpm,
 };
 use sawflutter::stability::{Analysis, StabilityState};
 use serde::Deserialize;
@@ -425,4 +426,23 @@ fn a_slotted_saw_beside_guides_is_not_called_stable_where_slots_pass_them() {
             "{slots:?} {radius_m}"
         );
     }
+}
+
+/// Frequencies of the lower branches of the plate with cuts give the depth of its slots, from a scene with slots of 30 mm.
+#[test]
+fn taps_tell_the_depth_of_slots() {
+    let rows = table::<Row>("slots_four_40mm.csv").into_iter();
+    let rows: Vec<Row> = rows.filter(|row| row.branch != "high").collect();
+    let names: Vec<String> = rows.iter().map(|row| format!("n{}", row.n)).collect();
+    let hz: Vec<String> = rows.iter().map(|row| row.rest_hz.to_string()).collect();
+    let taps = format!("rpm,{}\n0,{}\n", names.join(","), hz.join(","));
+    let measurement = Measurement::from_csv("taps", &taps).unwrap();
+    let saw = saw(Some((4, 0.03)));
+    let free = [Freed::new(saw.file(), "blade.slots.depth_m", 0.01, 0.08).unwrap()];
+    let options = Options {
+        starts: 2,
+        ..Options::default()
+    };
+    let found = fit(&saw, &measurement, &free, &options, &|_, _| ()).unwrap();
+    assert_close("depth", found.parameters[0].value, 0.04, 5e-3);
 }
