@@ -14,7 +14,7 @@ from ._scene_types import SceneDict, StudyDict
 
 InstabilityKind: TypeAlias = Literal["divergence", "flutter"]
 
-StabilityState: TypeAlias = Literal["stable", "divergence", "flutter", "too_close", "not_determined", "outside_sweep"]
+StabilityState: TypeAlias = Literal["stable", "divergence", "flutter", "too_close", "not_determined", "not_covered", "outside_sweep"]
 
 ForceCause: TypeAlias = Literal["side_force", "cut", "assumed"]
 

@@ -55,6 +55,32 @@ class RimDict(_RimDict, total=False):
     """Distance of the circle from the axis; by default the radius of the rim."""
 
 
+class _SlotsDict(TypedDict):
+    """Radial slots, equal and evenly spaced, from the rim inwards."""
+
+    count: int
+    """Number of slots."""
+
+    depth_m: float
+    """Distance from the rim to the end of a slot."""
+
+
+class SlotsDict(_SlotsDict, total=False):
+    """Radial slots, equal and evenly spaced, from the rim inwards."""
+
+    width_m: float | None
+    """Width of a slot. Slots are cuts of width zero in the model; a width of 1 mm changes
+    frequencies by 1 %, so that no larger one is allowed."""
+
+    inclination_deg: float | None
+    """Angle between a slot and the radius. Slots are radial in the model; 20° changes
+    frequencies by 1 %, so that no larger angle is allowed."""
+
+    hole_diameter_m: float | None
+    """Diameter of the hole at the end of a slot. Holes are not modelled yet, so that only 0 is
+    allowed."""
+
+
 class _BladeDict(TypedDict):
     """An annular blade."""
 
@@ -87,6 +113,9 @@ class BladeDict(_BladeDict, total=False):
     rim: RimDict | None
     """Mass of teeth or carbide tips. None by default."""
 
+    slots: SlotsDict | None
+    """Slots from the rim inwards, such as expansion slots. None by default."""
+
 
 class MountSplineDict(TypedDict):
     """Loose on a splined arbor: the bore is free in bending and in plane."""
@@ -95,8 +124,9 @@ class MountSplineDict(TypedDict):
     """Which kind it is."""
 
 
-class MountCollarDict(TypedDict):
-    """Clamped between collars or flanges: no deflection and no slope at their edge."""
+class _MountCollarDict(TypedDict):
+    """Clamped between collars or flanges: no deflection at their edge, and no slope unless the
+    clamp yields."""
 
     kind: Literal["collar"]
     """Which kind it is."""
@@ -106,6 +136,16 @@ class MountCollarDict(TypedDict):
 
     in_plane: InPlane
     """Condition in the plane of the blade at the edge of the collar."""
+
+
+class MountCollarDict(_MountCollarDict, total=False):
+    """Clamped between collars or flanges: no deflection at their edge, and no slope unless the
+    clamp yields."""
+
+    clamp_stiffness_n_m_per_rad_per_m: float | None
+    """Moment per angle and per length of the edge with which the collar resists a slope of the
+    blade at its edge, where the deflection stays zero; 0 lets the blade turn freely. By default
+    the clamp is rigid."""
 
 
 MountDict: TypeAlias = MountSplineDict | MountCollarDict
@@ -979,24 +1019,26 @@ class StudyDict(_StudyDict, total=False):
 
 NumberPath: TypeAlias = Literal[
     "blade.outer_diameter_m", "blade.inner_diameter_m", "blade.thickness_m", "blade.teeth",
-    "blade.rim.mass_per_tooth_kg", "blade.rim.radius_m", "blade.material.youngs_modulus_pa",
+    "blade.rim.mass_per_tooth_kg", "blade.rim.radius_m", "blade.slots.count",
+    "blade.slots.depth_m", "blade.slots.width_m", "blade.slots.inclination_deg",
+    "blade.slots.hole_diameter_m", "blade.material.youngs_modulus_pa",
     "blade.material.poisson_ratio", "blade.material.density_kg_per_m3", "mount.diameter_m",
-    "guides[0].radius_m", "guides[1].radius_m", "guides[2].radius_m", "guides[3].radius_m",
-    "guides[0].angle_deg", "guides[1].angle_deg", "guides[2].angle_deg", "guides[3].angle_deg",
-    "guides[0].radial_length_m", "guides[1].radial_length_m", "guides[2].radial_length_m",
-    "guides[3].radial_length_m", "guides[0].tangential_length_m",
-    "guides[1].tangential_length_m", "guides[2].tangential_length_m",
-    "guides[3].tangential_length_m", "guides[0].stiffness_n_per_m",
-    "guides[1].stiffness_n_per_m", "guides[2].stiffness_n_per_m", "guides[3].stiffness_n_per_m",
-    "guides[0].damping_n_s_per_m", "guides[1].damping_n_s_per_m", "guides[2].damping_n_s_per_m",
-    "guides[3].damping_n_s_per_m", "guides[0].gap_m", "guides[1].gap_m", "guides[2].gap_m",
-    "guides[3].gap_m", "guides[0].film_stiffness_n_per_m", "guides[1].film_stiffness_n_per_m",
-    "guides[2].film_stiffness_n_per_m", "guides[3].film_stiffness_n_per_m",
-    "guides[0].offset_m", "guides[1].offset_m", "guides[2].offset_m", "guides[3].offset_m",
-    "guides[0].arm.stiffness_n_per_m", "guides[1].arm.stiffness_n_per_m",
-    "guides[2].arm.stiffness_n_per_m", "guides[3].arm.stiffness_n_per_m",
-    "guides[0].arm.mass_kg", "guides[1].arm.mass_kg", "guides[2].arm.mass_kg",
-    "guides[3].arm.mass_kg", "guides[0].arm.damping_n_s_per_m",
+    "mount.clamp_stiffness_n_m_per_rad_per_m", "guides[0].radius_m", "guides[1].radius_m",
+    "guides[2].radius_m", "guides[3].radius_m", "guides[0].angle_deg", "guides[1].angle_deg",
+    "guides[2].angle_deg", "guides[3].angle_deg", "guides[0].radial_length_m",
+    "guides[1].radial_length_m", "guides[2].radial_length_m", "guides[3].radial_length_m",
+    "guides[0].tangential_length_m", "guides[1].tangential_length_m",
+    "guides[2].tangential_length_m", "guides[3].tangential_length_m",
+    "guides[0].stiffness_n_per_m", "guides[1].stiffness_n_per_m", "guides[2].stiffness_n_per_m",
+    "guides[3].stiffness_n_per_m", "guides[0].damping_n_s_per_m", "guides[1].damping_n_s_per_m",
+    "guides[2].damping_n_s_per_m", "guides[3].damping_n_s_per_m", "guides[0].gap_m",
+    "guides[1].gap_m", "guides[2].gap_m", "guides[3].gap_m", "guides[0].film_stiffness_n_per_m",
+    "guides[1].film_stiffness_n_per_m", "guides[2].film_stiffness_n_per_m",
+    "guides[3].film_stiffness_n_per_m", "guides[0].offset_m", "guides[1].offset_m",
+    "guides[2].offset_m", "guides[3].offset_m", "guides[0].arm.stiffness_n_per_m",
+    "guides[1].arm.stiffness_n_per_m", "guides[2].arm.stiffness_n_per_m",
+    "guides[3].arm.stiffness_n_per_m", "guides[0].arm.mass_kg", "guides[1].arm.mass_kg",
+    "guides[2].arm.mass_kg", "guides[3].arm.mass_kg", "guides[0].arm.damping_n_s_per_m",
     "guides[1].arm.damping_n_s_per_m", "guides[2].arm.damping_n_s_per_m",
     "guides[3].arm.damping_n_s_per_m", "guides[0].arm.loss_factor", "guides[1].arm.loss_factor",
     "guides[2].arm.loss_factor", "guides[3].arm.loss_factor", "guides[0].film.lag_s",

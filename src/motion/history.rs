@@ -54,6 +54,7 @@ pub fn saws(gap_m: f64, force_n: f64, oscillating_n: f64) -> [(&'static str, Sce
                     Mount::Collar {
                         diameter_m: 0.25,
                         in_plane: InPlane::Free,
+                        clamp_stiffness_n_m_per_rad_per_m: None,
                     },
                 );
             }

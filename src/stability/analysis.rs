@@ -386,6 +386,10 @@ impl Analysis {
             critical_rad_per_s,
             threshold_per_s: self.scene.flutter_threshold_per_s(),
             range_rad_per_s: self.range_rad_per_s,
+            covered_to_rad_per_s: self
+                .scene
+                .file()
+                .covered_to(critical_rad_per_s.first().copied()),
         }
     }
 }

@@ -36,6 +36,7 @@ fn collar(saw: &mut SceneFile) {
     saw.mount = Mount::Collar {
         diameter_m: 0.25,
         in_plane: InPlane::Free,
+        clamp_stiffness_n_m_per_rad_per_m: None,
     };
     saw.sweep = Some(SweepFile {
         from_rpm: 0.0,

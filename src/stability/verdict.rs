@@ -42,6 +42,8 @@ pub enum StabilityState {
     TooClose,
     /// The search for bands failed: its bands contradict the eigenvalues.
     NotDetermined,
+    /// No band that counts, but slots of the blade pass guides, which the model does not cover at this speed.
+    NotCovered,
     /// The speed was not analysed.
     OutsideSweep,
 }
@@ -58,6 +60,15 @@ impl StabilityState {
         states
             .max_by_key(diverges)
             .unwrap_or(StabilityState::Stable)
+    }
+
+    /// The state at a speed of the sweep at which no band counts, if the model covers speeds up to another one.
+    pub(crate) fn of_none(speed: f64, covered_to: f64) -> Self {
+        if speed > covered_to {
+            StabilityState::NotCovered
+        } else {
+            StabilityState::Stable
+        }
     }
 }
 
@@ -91,6 +102,8 @@ pub struct Evidence<'a> {
     pub threshold_per_s: f64,
     /// Range of the search, in rad/s.
     pub range_rad_per_s: SpeedRange,
+    /// Speed up to which a saw without a band is stable, in rad/s: infinite unless slots pass guides.
+    pub covered_to_rad_per_s: f64,
 }
 
 /// Index of the critical speed within 5 % of a speed; of several, the nearest. All speeds have the same unit.
@@ -123,7 +136,9 @@ impl Evidence<'_> {
             _ if !is_determined && around(&self.range_rad_per_s) => StabilityState::NotDetermined,
             _ if undecided.is_some() => StabilityState::TooClose,
             Some((_, band, _)) => StabilityState::within([band.kind]),
-            None if around(&self.range_rad_per_s) => StabilityState::Stable,
+            None if around(&self.range_rad_per_s) => {
+                StabilityState::of_none(speed_rad_per_s, self.covered_to_rad_per_s)
+            }
             None => StabilityState::OutsideSweep,
         };
         Verdict {
@@ -329,6 +344,7 @@ mod tests {
             critical_rad_per_s: critical,
             threshold_per_s: 0.25,
             range_rad_per_s: SpeedRange::new(0.0, 300.0),
+            covered_to_rad_per_s: f64::INFINITY,
         }
     }
 

@@ -66,6 +66,7 @@ pub fn drawn_saw(index: u64) -> SceneFile {
         file.mount = Mount::Collar {
             diameter_m: free_from * outer_m,
             in_plane: [InPlane::Fixed, InPlane::Free][usize::from(draw.one_in(2))],
+            clamp_stiffness_n_m_per_rad_per_m: None,
         };
     }
     let guides = 1 + (4.0 * draw.unit()) as usize;

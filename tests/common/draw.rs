@@ -102,6 +102,7 @@ pub fn scene_file(bytes: &mut Bytes<'_>) -> SceneFile {
             } else {
                 InPlane::Free
             },
+            clamp_stiffness_n_m_per_rad_per_m: None,
         };
     }
     for _ in 0..bytes.next() % 4 {

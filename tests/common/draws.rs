@@ -77,7 +77,7 @@ prop_compose! {
         file.blade.thickness_m = outer_radius_m / thinness;
         if let Some(in_plane) = mount {
             let diameter_m = file.blade.inner_diameter_m;
-            file.mount = Mount::Collar { diameter_m, in_plane };
+            file.mount = Mount::Collar { diameter_m, in_plane, clamp_stiffness_n_m_per_rad_per_m: None };
         }
         file.guides = guides;
         file

@@ -28,6 +28,7 @@ fn annulus(bc: &str, nu: f64, ratio: f64, accuracy: Accuracy) -> Scene {
         _ => Mount::Collar {
             diameter_m: file.blade.inner_diameter_m,
             in_plane: InPlane::Free,
+            clamp_stiffness_n_m_per_rad_per_m: None,
         },
     };
     Scene::try_from(file).unwrap()

@@ -20,6 +20,7 @@ fn clamped() -> Scene {
         saw.mount = sawflutter::model::scene::Mount::Collar {
             diameter_m: 0.25,
             in_plane: sawflutter::model::scene::InPlane::Free,
+            clamp_stiffness_n_m_per_rad_per_m: None,
         };
     })
     .unwrap()

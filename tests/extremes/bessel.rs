@@ -23,6 +23,7 @@ fn annulus(root: &AnnulusRoot) -> Scene {
         file.mount = Mount::Collar {
             diameter_m: blade.inner_diameter_m,
             in_plane: InPlane::Free,
+            clamp_stiffness_n_m_per_rad_per_m: None,
         };
     }
     scene(&file)

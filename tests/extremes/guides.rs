@@ -29,6 +29,7 @@ fn collared() -> SceneFile {
     file.mount = Mount::Collar {
         diameter_m: file.blade.inner_diameter_m,
         in_plane: InPlane::Fixed,
+        clamp_stiffness_n_m_per_rad_per_m: None,
     };
     file
 }

@@ -30,6 +30,7 @@ fn annulus(bc: &str, nu: f64, ratio: f64) -> Scene {
         "CF" => Mount::Collar {
             diameter_m: blade.inner_diameter_m,
             in_plane: InPlane::Free,
+            clamp_stiffness_n_m_per_rad_per_m: None,
         },
         other => panic!("unknown condition {other}"),
     };

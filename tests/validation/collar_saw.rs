@@ -53,6 +53,7 @@ fn saw(in_plane: InPlane) -> Scene {
     let mount = Mount::Collar {
         diameter_m: 0.120,
         in_plane,
+        clamp_stiffness_n_m_per_rad_per_m: None,
     };
     let saw = crate::common::scene("collar-400mm").edited(|saw| saw.mount = mount);
     saw.unwrap_or_else(|error| panic!("{error}"))

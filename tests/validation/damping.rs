@@ -256,6 +256,7 @@ fn a_damped_pad_flutters_where_modes_meet_and_not_where_damping_feeds_a_wave() {
         critical_rad_per_s: &[],
         threshold_per_s: scene.flutter_threshold_per_s(),
         range_rad_per_s: analysis.range_rad_per_s,
+        covered_to_rad_per_s: f64::INFINITY,
     };
     let criteria = limits.criteria(&found, scene.accuracy());
     assert!(criteria.iter().all(|c| c.passed), "{criteria:?}");

@@ -74,6 +74,7 @@ fn a_rolled_band_and_a_kinked_temperature() {
         saw.mount = Mount::Collar {
             diameter_m: 0.12,
             in_plane: InPlane::Free,
+            clamp_stiffness_n_m_per_rad_per_m: None,
         };
     });
     let kinked = scene_with(

@@ -108,6 +108,7 @@ fn flutter_that_becomes_divergence() -> Scene {
             saw.mount = Mount::Collar {
                 diameter_m: 0.199,
                 in_plane: InPlane::Fixed,
+                clamp_stiffness_n_m_per_rad_per_m: None,
             };
             saw.guides[0] = GuideFile {
                 radius_m: 0.239,

@@ -36,6 +36,7 @@ pub(crate) mod root_loci;
 #[cfg(test)]
 pub(crate) mod sample;
 pub(crate) mod sensitivity_chart;
+mod slot_remarks;
 mod speeds;
 mod verdict;
 mod vtu;

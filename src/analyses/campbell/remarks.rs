@@ -10,6 +10,7 @@ use crate::stability::{Analysis, CHARTED, CRITICAL_MARGIN, Shortened, is_cut_sho
 
 use super::certificate::BandCertificate;
 use super::pad_places::{beside_the_blade, overlapping};
+use super::slot_remarks::{loaded, passing, slotted};
 
 /// Relative rounding error above which a frequency has fewer than six valid digits.
 const LEAST_DIGITS: f64 = 1e-6;
@@ -63,6 +64,7 @@ pub fn terms(scene: &Scene, plate: &Plate) -> Vec<String> {
         "thickness over the radius in M, K_b and K_sigma",
     );
     add(plate.blade.rim.is_some(), "mass of teeth in M and K_sigma");
+    add(plate.blade.slots.is_some(), "slots in K_b and K_sigma");
     for (source, name) in [
         (MembraneSource::Heat, "heat K_m"),
         (MembraneSource::RollTension, "roll tension K_m"),
@@ -133,6 +135,9 @@ pub fn warnings(
         lifting_off(scene),
         sagging(analysis),
         rolled_alone(scene),
+        passing(scene),
+        slotted(&analysis.model.plate),
+        loaded(scene),
     ];
     found.into_iter().flatten().collect()
 }

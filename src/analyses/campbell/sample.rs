@@ -27,6 +27,7 @@ pub fn empty_report(name: &str) -> Report {
             thickness_m: 0.0023,
             profile: Vec::new(),
             rim: None,
+            slots: None,
             teeth: None,
             material,
         },

@@ -52,6 +52,13 @@ impl Limits {
                     ..criterion
                 };
             }
+            if asked > found.covered_to_rad_per_s {
+                return Criterion {
+                    finding: "not certain: slots pass guides, which the model does not cover up to this speed".to_owned(),
+                    passed: false,
+                    ..criterion
+                };
+            }
             criterion
         }));
         criteria
@@ -96,6 +103,11 @@ impl Limits {
                 format!("too close to call at {at}: {why}")
             }
             (StabilityState::NotDetermined, ..) => format!("the search for bands failed at {at}"),
+            (StabilityState::NotCovered, ..) => {
+                format!(
+                    "not certain at {at}: slots pass guides, which the model does not cover there"
+                )
+            }
             (StabilityState::OutsideSweep, ..) => format!("{at} is outside the sweep"),
             (StabilityState::Divergence, Some(range), _) => within(&at, "divergence", range),
             (StabilityState::Flutter, Some(range), _) => within(&at, "flutter", range),

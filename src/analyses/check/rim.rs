@@ -85,6 +85,9 @@ impl Judged {
             StabilityState::Divergence | StabilityState::Flutter => Some("the saw is unstable"),
             StabilityState::TooClose => Some("it is too close to call whether the saw is stable"),
             StabilityState::OutsideSweep => Some("the sweep does not include the speed"),
+            StabilityState::NotCovered => {
+                Some("slots pass guides, which the model does not cover at this speed")
+            }
             StabilityState::NotDetermined => Some("the search for bands failed"),
         }
     }

@@ -110,6 +110,7 @@ fn collar_saw(idle_s: f64) -> Scene {
         file.mount = Mount::Collar {
             diameter_m: 0.84,
             in_plane: InPlane::Fixed,
+            clamp_stiffness_n_m_per_rad_per_m: None,
         };
         let pad = &mut file.guides[0];
         (pad.radius_m, pad.angle_deg, pad.stiffness_n_per_m) = (0.64, 157.0, 2.57e7);

@@ -20,6 +20,7 @@ fn saws(film_stiffness_n_per_m: f64, offset_m: f64) -> [Scene; 3] {
                 file.mount = crate::model::scene::Mount::Collar {
                     diameter_m: 0.25,
                     in_plane: crate::model::scene::InPlane::Free,
+                    clamp_stiffness_n_m_per_rad_per_m: None,
                 };
             }
         });

@@ -201,6 +201,7 @@ fn a_gap_that_the_blade_cannot_cross_is_refused_before_any_work() {
             file.mount = crate::model::scene::Mount::Collar {
                 diameter_m: 0.2,
                 in_plane: crate::model::scene::InPlane::Free,
+                clamp_stiffness_n_m_per_rad_per_m: None,
             };
             file.guides[0].radius_m = 0.2;
             (

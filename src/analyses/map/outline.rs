@@ -72,11 +72,12 @@ fn verdict(report: &MapReport) -> String {
             100.0 * CRITICAL_MARGIN
         ),
     };
-    let [stable, divergence, flutter, open] = [
+    let [stable, divergence, flutter, open, passing] = [
         StabilityState::Stable,
         StabilityState::Divergence,
         StabilityState::Flutter,
         StabilityState::TooClose,
+        StabilityState::NotCovered,
     ]
     .map(count);
     let open = match open {
@@ -86,8 +87,12 @@ fn verdict(report: &MapReport) -> String {
             sharper(report.scene.accuracy)
         ),
     };
+    let passing = match passing {
+        0 => String::new(),
+        count => format!(", {count} are not certain, because slots pass guides"),
+    };
     format!(
-        "At {rpm:.0} rpm {stable} of {judged} saws are stable{critical}, {divergence} diverge, {flutter} flutter{open}"
+        "At {rpm:.0} rpm {stable} of {judged} saws are stable{critical}, {divergence} diverge, {flutter} flutter{open}{passing}"
     )
 }
 
@@ -183,6 +188,7 @@ fn saws_of(report: &MapReport) -> Table {
             Some(StabilityState::Flutter) => "flutter".into(),
             Some(StabilityState::TooClose) => "too close".into(),
             Some(StabilityState::NotDetermined) => "not determined".into(),
+            Some(StabilityState::NotCovered) => "not certain".into(),
             Some(StabilityState::OutsideSweep) => "outside sweep".into(),
         };
         [

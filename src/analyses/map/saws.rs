@@ -55,7 +55,10 @@ impl Map {
         let judged_rpm = self.rpm.filter(|_| saw.found().is_some());
         let end_rpm = rpm(self.study.to_rad_per_s());
         let within = |speed_rpm: &f64| *speed_rpm <= end_rpm;
-        let state = judged_rpm.map(|rpm| state_at(&found.bands, rpm, end_rpm));
+        let state = judged_rpm.map(|rpm| match state_at(&found.bands, rpm, end_rpm) {
+            StabilityState::Stable => StabilityState::of_none(rpm, self.covered_to_rpm(saw, found)),
+            state => state,
+        });
         let at_critical_rpm = judged_rpm
             .and_then(|rpm| critical_at(&found.critical_rpm, rpm))
             .map(|place| found.critical_rpm[place]);
@@ -77,6 +80,13 @@ impl Map {
             state,
             not_analysed: saw.outcome.reason().map(str::to_owned),
         }
+    }
+
+    /// Speed up to which a saw without a band is stable.
+    fn covered_to_rpm(&self, saw: &Saw, found: &Found) -> f64 {
+        let scene = self.study.scene_of(&saw.values);
+        let covered = scene.map(|scene| scene.file().covered_to(found.lowest_critical_rpm));
+        covered.unwrap_or(f64::INFINITY)
     }
 
     fn side_force_factor(&self, saw: &Saw, judged: &Judged) -> Option<f64> {

@@ -86,6 +86,7 @@ impl Question {
         let threshold = scene.flutter_threshold_per_s();
         let [flutter, _] = flutter_onsets(&bands, threshold);
         let flutter = flutter.map(|onset| onset.speed_rad_per_s);
+        let covered_to = scene.file().covered_to(critical_rad_per_s.first().copied());
         let evidence = Evidence {
             bands: &bands,
             has_failed: certificate.has_failed(),
@@ -93,6 +94,7 @@ impl Question {
             critical_rad_per_s: &critical_rad_per_s,
             threshold_per_s: threshold,
             range_rad_per_s: self.range,
+            covered_to_rad_per_s: covered_to,
         };
         let around = demands.around_rad_per_s;
         let window = around.and_then(|speed| evidence.window_without_instability(speed));
@@ -103,8 +105,8 @@ impl Question {
         let is_stable = scene
             .operating_rad_per_s()
             .is_some_and(|speed| evidence.verdict(speed).state == StabilityState::Stable);
-        // A saw whose search failed keeps no limit that follows from its bands.
-        let unknown = if certificate.has_failed() {
+        // A saw whose search failed keeps no limit that follows from its bands, and neither does one whose slots pass a guide.
+        let unknown = if certificate.has_failed() || covered_to == 0.0 {
             FAR_BEYOND
         } else {
             0.0

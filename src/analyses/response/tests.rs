@@ -44,6 +44,7 @@ pub(super) fn clamped_free_blade(saw: &mut crate::model::scene::SceneFile) {
     saw.mount = Mount::Collar {
         diameter_m: 0.25,
         in_plane: InPlane::Free,
+        clamp_stiffness_n_m_per_rad_per_m: None,
     };
 }
 

@@ -171,6 +171,9 @@ impl Study {
             critical_rad_per_s: &onsets.critical_rad_per_s,
             threshold_per_s: scene.flutter_threshold_per_s(),
             range_rad_per_s: SpeedRange::new(0.0, self.to_rad_per_s()),
+            covered_to_rad_per_s: scene
+                .file()
+                .covered_to(onsets.critical_rad_per_s.first().copied()),
         };
         let gap = match (self.gap(), self.basis()) {
             (Some(case), Some(basis)) => {

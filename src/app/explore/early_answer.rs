@@ -52,6 +52,7 @@ impl Ahead {
                 critical_rad_per_s: &critical,
                 threshold_per_s: scene.flutter_threshold_per_s(),
                 range_rad_per_s: interim.range_rad_per_s,
+                covered_to_rad_per_s: scene.file().covered_to(critical.first().copied()),
             };
             ahead.add_bands(&evidence, operating, &scene.limits());
         }

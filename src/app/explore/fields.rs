@@ -46,7 +46,7 @@ pub struct Field {
 }
 
 /// Unit of a quantity, ending of its key, unit of the field, and the factor to it.
-const UNITS: [(&str, &str, &str, f64); 23] = [
+const UNITS: [(&str, &str, &str, f64); 24] = [
     ("m", "_m", "mm", 1e3),
     ("kg", "_kg", "kg", 1.0),
     ("Pa", "_pa", "MPa", 1e-6),
@@ -54,6 +54,7 @@ const UNITS: [(&str, &str, &str, f64); 23] = [
     ("kg·m²", "_kg_m2", "kg·m²", 1.0),
     ("°", "_deg", "°", 1.0),
     ("N/m", "_n_per_m", "MN/m", 1e-6),
+    ("N·m/(rad·m)", "_n_m_per_rad_per_m", "N·m/(rad·m)", 1.0),
     ("N·s/m", "_n_s_per_m", "N·s/m", 1.0),
     ("N·s/m³", "_n_s_per_m3", "N·s/m³", 1.0),
     ("N/m^(3/2)", "_n_per_m_3_2", "N/m^1.5", 1.0),

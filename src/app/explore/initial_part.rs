@@ -48,6 +48,7 @@ pub fn mount(scene: &SceneFile, kind: &str) -> Option<Mount> {
         "collar" => Mount::Collar {
             diameter_m: collar_diameter(scene),
             in_plane: InPlane::Fixed,
+            clamp_stiffness_n_m_per_rad_per_m: None,
         },
         _ => return None,
     })

@@ -17,7 +17,7 @@ pub struct HarmonicBlock {
     /// Number of nodal diameters n.
     pub diameters: usize,
     /// K_b: ∫ D/ρh₀ [κ_r² + κ_θ² + 2ν κ_r κ_θ + 2(1−ν) κ_rθ²] r dr, in 1/s², with the reference thickness h₀
-    /// of the mass.
+    /// of the mass, times c_n of a slotted blade; and the clamp, k/ρh₀ a R′R′ at a, if it yields to a slope.
     pub bending: DMatrix<f64>,
     /// K_σ − N: ∫ h/h₀ [σ̂_rr R′R′ + n² σ̂_θθ RR/r²] r dr − n² δ, dimensionless (times Ω²).
     pub spin: DMatrix<f64>,
@@ -45,7 +45,8 @@ impl HarmonicBlock {
         let mut bending = DMatrix::zeros(size, size);
         let mut spin = DMatrix::from_diagonal_element(size, size, -n2);
         let mut area = (!blade.is_plain()).then(|| DMatrix::zeros(size, size));
-        for (r, w) in basis.rule().iter() {
+        let steep = stress.slotted().map(|slotted| slotted.stress.rule());
+        for (r, w) in steep.as_ref().unwrap_or(basis.rule()).iter() {
             let f = basis.evaluate(diameters, r);
             let radial = &f.curvature;
             let hoop: Vec<f64> = (0..size)
@@ -74,6 +75,15 @@ impl HarmonicBlock {
                     spin[(j, k)] += tensioned * tension;
                 }
             }
+        }
+        if let Some(clamp) = blade.clamp_n_m_per_rad_per_m {
+            let edge = blade.inner_radius_m;
+            let slope = DVector::from_vec(basis.evaluate(diameters, edge).slope);
+            let specific = clamp * edge / blade.mass_per_area_kg_per_m2();
+            bending.ger(specific, &slope, &slope, 1.0);
+        }
+        if let Some(slotted) = stress.slotted() {
+            bending *= slotted.bending(diameters);
         }
         let mut block = HarmonicBlock {
             diameters,

@@ -11,6 +11,7 @@ use super::membrane::MembraneStress;
 use super::pad_state::PadState;
 use super::radial::RadialBasis;
 use super::resolution::Resolution;
+use super::slots::SlottedBlade;
 use super::stress::CentrifugalStress;
 use crate::model::evenly_spaced;
 use crate::model::scene::{Blade, DampingFile, Polar};
@@ -54,6 +55,11 @@ pub(super) fn sampled_radii(blade: &Blade) -> Vec<f64> {
 }
 
 impl Plate {
+    /// Bending stiffness and stress of a slotted blade; `None` without slots.
+    pub fn slotted(&self) -> Option<&SlottedBlade> {
+        self.spinning.slotted()
+    }
+
     /// Largest number n_max of nodal diameters.
     pub fn max_diameters(&self) -> usize {
         self.resolution.max_diameters

@@ -27,6 +27,7 @@ mod pad_state;
 mod quadrature;
 mod radial;
 mod resolution;
+mod slots;
 mod stress;
 mod stretching;
 
@@ -41,6 +42,8 @@ pub use matrices::Plate;
 pub(crate) use membrane::{MembraneSource, MembraneStress, heated_disk, membrane_stiffness};
 pub use resolution::Resolution;
 pub(crate) use resolution::{MOST_DIAMETERS, MOST_UNKNOWNS};
+#[doc(hidden)]
+pub use slots::{Branch as SlottedBranch, MeanStress, SlottedBlade};
 pub use stretching::{ReducedStretching, Stretching, StretchingError};
 
 #[cfg(test)]

@@ -1,9 +1,12 @@
 //! In-plane stress of the steadily spinning annulus: in closed form for uniform thickness without mass of
 //! teeth, by finite elements otherwise.
 
+use std::sync::Arc;
+
 use crate::model::scene::{Blade, Bore, InPlane};
 
 use super::in_plane::{InPlaneField, InPlaneLoad};
+use super::slots::SlottedBlade;
 
 /// Centrifugal plane stress σ̂ = σ/(ρΩ²), in m².
 #[derive(Debug, Clone, PartialEq)]
@@ -22,12 +25,17 @@ pub enum CentrifugalStress {
     },
     /// Finite elements.
     Varying(InPlaneField),
+    /// Mean around the circle of a slotted blade.
+    Slotted(Arc<SlottedBlade>),
 }
 
 impl CentrifugalStress {
     /// Computes the stress of a blade with a free rim. The bore is free (spline, or a collar in which the blade
     /// slides) or has u(a) = 0. The mass m of teeth exerts the outward force m Ω² r/2π per radian of its circle.
     pub fn new(blade: &Blade) -> Self {
+        if let Some(slotted) = SlottedBlade::of(blade) {
+            return CentrifugalStress::Slotted(slotted);
+        }
         if blade.is_plain() {
             return Self::uniform(blade);
         }
@@ -56,6 +64,7 @@ impl CentrifugalStress {
                 ..
             } => uniform_m2 - inverse_m4 / (r * r) - p * r * r,
             Self::Varying(ref field) => field.at(r, 0.0).radial_pa,
+            Self::Slotted(ref slotted) => slotted.stress.at_m2(r)[0],
         }
     }
 
@@ -69,6 +78,15 @@ impl CentrifugalStress {
                 ..
             } => uniform_m2 + inverse_m4 / (r * r) - q * r * r,
             Self::Varying(ref field) => field.at(r, 0.0).hoop_pa,
+            Self::Slotted(ref slotted) => slotted.stress.at_m2(r)[1],
+        }
+    }
+
+    /// Bending stiffness and stress of a slotted blade; `None` without slots.
+    pub(super) fn slotted(&self) -> Option<&SlottedBlade> {
+        match self {
+            Self::Slotted(slotted) => Some(slotted),
+            _ => None,
         }
     }
 

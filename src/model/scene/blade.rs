@@ -7,6 +7,7 @@ use serde::{Deserialize, Serialize};
 
 use super::SceneError;
 use super::rule::{needed_teeth, refuse};
+use super::slots::{Slots, SlotsFile};
 use super::thickness::{ThicknessProfile, ThicknessRow};
 use crate::page::text::shown;
 
@@ -31,6 +32,9 @@ pub struct BladeFile {
     /// Mass of teeth or carbide tips. None by default.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub rim: Option<RimFile>,
+    /// Slots from the rim inwards, such as expansion slots. None by default.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub slots: Option<SlotsFile>,
     /// Linear elastic, isotropic material.
     pub material: Material,
 }
@@ -53,12 +57,16 @@ pub struct Material {
 pub enum Mount {
     /// Loose on a splined arbor: the bore is free in bending and in plane.
     Spline {},
-    /// Clamped between collars or flanges: no deflection and no slope at their edge.
+    /// Clamped between collars or flanges: no deflection at their edge, and no slope unless the clamp yields.
     Collar {
         /// Diameter of the collar; the blade inside it does not move.
         diameter_m: f64,
         /// Condition in the plane of the blade at the edge of the collar.
         in_plane: InPlane,
+        /// Moment per angle and per length of the edge with which the collar resists a slope of the blade at its edge, where
+        /// the deflection stays zero; 0 lets the blade turn freely. By default the clamp is rigid.
+        #[serde(default, skip_serializing_if = "Option::is_none")]
+        clamp_stiffness_n_m_per_rad_per_m: Option<f64>,
     },
 }
 
@@ -97,10 +105,14 @@ pub struct Blade {
     pub(crate) profile: Option<ThicknessProfile>,
     /// Mass of teeth and tips.
     pub(crate) rim: Option<RimMass>,
+    /// Slots from the rim inwards.
+    pub slots: Option<Slots>,
     /// Material of the blade.
     pub material: Material,
     /// Boundary condition at r = a.
     pub bore: Bore,
+    /// Moment per angle and length, in N·m/(rad·m), with which a collar resists a slope at r = a; `None` if there is no slope.
+    pub(crate) clamp_n_m_per_rad_per_m: Option<f64>,
 }
 
 /// Condition at the inner radius, in bending and in plane.
@@ -108,7 +120,7 @@ pub struct Blade {
 pub enum Bore {
     /// Spline: free in bending and in plane.
     Free,
-    /// Collar: clamped in bending; the condition in plane is that of the scene.
+    /// Collar: no deflection, and no slope unless the clamp yields; the condition in plane is that of the scene.
     Clamped(InPlane),
 }
 

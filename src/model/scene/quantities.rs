@@ -16,6 +16,8 @@ const RADIUS_OR_NONE: Span = Span::closed(0.0, 5.0);
 const THICKNESS: Span = Span::closed(1e-10, 1.0);
 /// Stiffness of a contact. A steel block of 50 mm by 50 mm by 50 mm has EA/h = 1e10 N/m; a body that supports it has less.
 const STIFFNESS: Span = Span::closed(0.0, 1e10);
+/// Moment per angle and length of a clamp. The flexural rigidity of steel over its thickness is Eh²/12(1 − ν²): 2e8 N for 0.1 m.
+const CLAMP: Span = Span::closed(0.0, 1e9);
 /// Damping of a contact. At 1000 rad/s the largest one holds the blade as firmly as the largest stiffness.
 const DAMPING: Span = Span::closed(0.0, 1e7);
 /// Ten turns either way.
@@ -43,7 +45,7 @@ const COEFFICIENT: Span = Span::closed(-1e60, 1e60);
 /// built: diameters from 50 mm (slitting saws) to 4 m (stone saws), materials from aluminium to tungsten carbide, guides from
 /// felt to steel.
 #[rustfmt::skip]
-pub static QUANTITIES: [Quantity; 115] = [
+pub static QUANTITIES: [Quantity; 121] = [
     q("blade.outer_diameter_m", "outer diameter", "m", LENGTH, 0.04, 5.0),
     q("blade.inner_diameter_m", "bore diameter", "m", LENGTH, 0.003, 2.0),
     q("blade.thickness_m", "thickness of the blade", "m", THICKNESS, 1e-4, 0.04),
@@ -55,6 +57,12 @@ pub static QUANTITIES: [Quantity; 115] = [
     // No tooth is heavier.
     q("blade.rim.mass_per_tooth_kg", "mass of a tooth", "kg", Span::closed(0.0, 1e3), 1e-6, 10.0),
     q("blade.rim.radius_m", "radius of the mass of teeth", "m", RADIUS, 0.02, 2.5).of_kind(Kind::Radius),
+    // Segments of the largest stone saws; the mesh between two slots grows with their distance.
+    q("blade.slots.count", "number of slots", "", Span::closed(1.0, 500.0), 2.0, 100.0).of_kind(Kind::Count),
+    q("blade.slots.depth_m", "depth of the slots", "m", LENGTH, 1e-3, 0.5),
+    q("blade.slots.width_m", "width of the slots", "m", Span::closed(0.0, 1e-3), 1e-5, 1e-3),
+    q("blade.slots.inclination_deg", "inclination of the slots", "°", Span::closed(-20.0, 20.0), -20.0, 20.0),
+    q("blade.slots.hole_diameter_m", "diameter of the slots' holes", "m", LENGTH_OR_NONE, 1e-3, 0.05),
     // From rubber to ten times diamond.
     q("blade.material.youngs_modulus_pa", "Young's modulus", "Pa", Span::closed(1e7, 1e13), 4e10, 7.5e11),
     // The limits of an isotropic material.
@@ -62,6 +70,8 @@ pub static QUANTITIES: [Quantity; 115] = [
     // From aerogel to forty times osmium, the densest metal.
     q("blade.material.density_kg_per_m3", "density", "kg/m³", Span::closed(1.0, 1e6), 2e3, 2e4),
     q("mount.diameter_m", "collar diameter", "m", LENGTH, 0.01, 3.0),
+    // Below, thin blades turn freely at the collar; above, thick ones are clamped rigidly.
+    q("mount.clamp_stiffness_n_m_per_rad_per_m", "bending stiffness of the clamp", "N·m/(rad·m)", CLAMP, 100.0, 1e7).of_kind(Kind::Stiffness),
     q("guides[].radius_m", "radius of the guide", "m", RADIUS_OR_NONE, 0.005, 2.5).of_kind(Kind::GuideRadius),
     q("guides[].angle_deg", "angle of the guide", "°", ANGLE, -360.0, 360.0).of_kind(Kind::Angle),
     q("guides[].radial_length_m", "radial length of the guide", "m", LENGTH_OR_NONE, 1e-4, 1.0),
@@ -221,7 +231,8 @@ pub static QUANTITIES: [Quantity; 115] = [
 ];
 
 /// Units by the ends of names, which also the paths of the table have. The longest one counts.
-const ENDINGS: [(&str, &str); 12] = [
+const ENDINGS: [(&str, &str); 13] = [
+    ("_n_m_per_rad_per_m", "N·m/(rad·m)"),
     ("_n_s_per_m", "N·s/m"),
     ("_n_per_m", "N/m"),
     ("_m_per_s", "m/s"),

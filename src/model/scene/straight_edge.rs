@@ -69,6 +69,8 @@ impl StraightEdge {
             blade: Blade {
                 inner_radius_m: bore,
                 bore: Bore::Free,
+                slots: None,
+                clamp_n_m_per_rad_per_m: None,
                 ..*blade
             },
             end_radius_m: on_blade("length_m", typed.length_m, 2.0, whole)?,

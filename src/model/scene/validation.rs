@@ -5,6 +5,7 @@ use super::cut::Cut;
 use super::guide::guide;
 use super::membrane::Membrane;
 use super::rule::{MAX_GUIDES, refuse};
+use super::slots::{Slots, SlottedRing};
 use super::speed_range::check_rise;
 use super::thickness::ThicknessProfile;
 use super::{
@@ -82,11 +83,12 @@ fn blade(file: &SceneFile) -> Result<Blade, SceneError> {
             remedy,
         ));
     }
-    let (inner, bore) = match file.mount {
-        Mount::Spline {} => (bore_diameter, Bore::Free),
+    let (inner, bore, clamp) = match file.mount {
+        Mount::Spline {} => (bore_diameter, Bore::Free, None),
         Mount::Collar {
             diameter_m,
             in_plane,
+            clamp_stiffness_n_m_per_rad_per_m: clamp,
         } => {
             if !(bore_diameter..outer).contains(&diameter_m) {
                 let allowed = format!(
@@ -97,7 +99,7 @@ fn blade(file: &SceneFile) -> Result<Blade, SceneError> {
                 let remedy = "give the outer diameter of the collar";
                 return Err(refuse("mount.diameter_m", diameter_m, allowed, remedy));
             }
-            (diameter_m, Bore::Clamped(in_plane))
+            (diameter_m, Bore::Clamped(in_plane), clamp)
         }
     };
     if inner > 0.999 * outer {
@@ -121,8 +123,15 @@ fn blade(file: &SceneFile) -> Result<Blade, SceneError> {
         thickness_m,
         profile: None,
         rim: None,
+        slots: None,
         material: typed.material,
         bore,
+        clamp_n_m_per_rad_per_m: clamp,
+    };
+    let ring = SlottedRing {
+        radii_m: [plain.inner_radius_m, plain.outer_radius_m],
+        thickness_m,
+        has_membrane: file.membrane.is_some(),
     };
     Ok(Blade {
         profile: ThicknessProfile::new(
@@ -132,6 +141,10 @@ fn blade(file: &SceneFile) -> Result<Blade, SceneError> {
             plain.outer_radius_m,
         )?,
         rim: RimMass::new(typed, &plain)?,
+        slots: typed
+            .slots
+            .map(|slots| Slots::new(slots, &ring))
+            .transpose()?,
         ..plain
     })
 }

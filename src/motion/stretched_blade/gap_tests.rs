@@ -21,6 +21,7 @@ fn plate(held: bool, change: impl FnOnce(&mut GuideFile)) -> Plate {
             saw.mount = Mount::Collar {
                 diameter_m: 0.24,
                 in_plane: InPlane::Fixed,
+                clamp_stiffness_n_m_per_rad_per_m: None,
             };
         }
         change(&mut saw.guides[0]);

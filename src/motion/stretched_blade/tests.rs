@@ -342,6 +342,7 @@ fn a_deflection_without_a_direction_is_refused() {
         saw.mount = crate::model::scene::Mount::Collar {
             diameter_m: 0.24,
             in_plane: crate::model::scene::InPlane::Free,
+            clamp_stiffness_n_m_per_rad_per_m: None,
         };
     });
     let blade = StretchedBlade::new(&Plate::new(&collar.unwrap(), RESOLUTION), 12).unwrap();

@@ -133,6 +133,7 @@ fn collar(in_plane: InPlane) -> Mount {
     Mount::Collar {
         diameter_m: 0.25,
         in_plane,
+        clamp_stiffness_n_m_per_rad_per_m: None,
     }
 }
 

@@ -5,7 +5,7 @@ use crate::analyses::campbell::{
     InstabilityBand, InstabilityKind, OperatingPoint, Report, StabilityState, near_critical,
     side_force_in_words,
 };
-use crate::model::scene::Accuracy;
+use crate::model::scene::{Accuracy, SlotPassing};
 use crate::page::outline::{Outline, SPEED};
 use crate::page::text::shown_to;
 use crate::stability::CRITICAL_MARGIN;
@@ -29,6 +29,8 @@ pub enum Answer {
     TooClose,
     /// The search for bands failed.
     NotDetermined,
+    /// Slots pass guides, which the model does not cover at this speed.
+    NotCovered,
     /// The sweep does not include the operating speed.
     OutsideSweep,
 }
@@ -41,6 +43,7 @@ impl Answer {
             StabilityState::Flutter => Answer::Flutter,
             StabilityState::TooClose => Answer::TooClose,
             StabilityState::NotDetermined => Answer::NotDetermined,
+            StabilityState::NotCovered => Answer::NotCovered,
             StabilityState::OutsideSweep => Answer::OutsideSweep,
             StabilityState::Stable if operating.at_critical_rpm.is_some() => Answer::AtCritical,
             StabilityState::Stable if operating.within_limit == Some(false) => Answer::PastRule,
@@ -58,6 +61,7 @@ impl Answer {
             Answer::Flutter => "flutter",
             Answer::TooClose => "too close",
             Answer::NotDetermined => "not determined",
+            Answer::NotCovered => "not certain",
             Answer::OutsideSweep => "outside sweep",
         }
     }
@@ -71,6 +75,7 @@ impl Answer {
             Answer::Flutter => "NO, UNSTABLE: flutter",
             Answer::TooClose => "TOO CLOSE TO CALL",
             Answer::NotDetermined => "UNKNOWN: the search for bands failed",
+            Answer::NotCovered => "NOT CERTAIN: slots pass guides",
             Answer::OutsideSweep => "UNKNOWN: outside the sweep",
         }
     }
@@ -106,6 +111,7 @@ fn at_operating_speed(text: &mut Outline, report: &Report, operating: &Operating
     match Answer::new(operating) {
         Answer::OutsideSweep => text.reason(WIDEN),
         Answer::NotDetermined => text.reason(failed(report)),
+        Answer::NotCovered => text.reason(passing(report)),
         _ => (),
     }
     if let (Some(growth), Some(hz)) = (operating.growth_per_s, operating.frequency_hz) {
@@ -138,6 +144,11 @@ fn failed(report: &Report) -> String {
     format!("{statement}; a shorter sweep or another accuracy may avoid this")
 }
 
+/// The reason for which a saw whose slots pass guides is not called stable.
+fn passing(report: &Report) -> &'static str {
+    (report.scene.slot_passing()).map_or("slots pass guides", SlotPassing::in_words)
+}
+
 /// The reason that decides the answer at the operating speed.
 #[cfg(feature = "page")]
 pub fn deciding(report: &Report, operating: &OperatingPoint) -> Option<String> {
@@ -149,6 +160,7 @@ pub fn deciding(report: &Report, operating: &OperatingPoint) -> Option<String> {
         Answer::TooClose => undecided(report, operating),
         Answer::OutsideSweep => Some(WIDEN.to_owned()),
         Answer::NotDetermined => Some(failed(report)),
+        Answer::NotCovered => Some(passing(report).to_owned()),
         Answer::AtCritical => at_critical_speed(report, operating),
         Answer::PastRule | Answer::Runs => rule(operating).or_else(|| usable(report, operating)),
     }
@@ -199,6 +211,10 @@ pub fn caution(report: &Report) -> Option<String> {
                 failed(report)
             )
         }
+        Answer::NotCovered => format!(
+            "it is not certain whether the saw is stable: {}",
+            passing(report)
+        ),
         _ => return None,
     };
     Some(format!("at {:.0} rpm {said}", operating.rpm))
@@ -281,7 +297,14 @@ fn up_to(text: &mut Outline, report: &Report) {
     let first = counted.map(|stretch| stretch[0]).reduce(f64::min);
     let from = report.campbell.from_rpm;
     let has_failed = report.certificate.has_failed();
+    let lowest = report.critical_speeds.first().map(|critical| critical.rpm);
+    let covered_to = report.scene.covered_to(lowest);
+    let end = report.campbell.to_rpm;
     text.headline(match first {
+        _ if !has_failed && covered_to < first.unwrap_or(end) => match covered_to {
+            0.0 => "NOT CERTAIN: slots pass guides".to_owned(),
+            _ => format!("No instability from {from:.0} to {covered_to:.1} rpm; NOT CERTAIN above: slots pass guides"),
+        },
         _ if has_failed => "UNKNOWN: the search for bands failed".to_owned(),
         Some(first) if first > from => {
             format!("No instability from {from:.0} to {first:.1} rpm")
@@ -294,6 +317,9 @@ fn up_to(text: &mut Outline, report: &Report) {
     });
     if has_failed {
         text.reason(failed(report));
+    }
+    if covered_to < first.unwrap_or(end) {
+        text.reason(passing(report));
     }
     if let Some(critical) = report.critical_speeds.first() {
         text.reason(format!(
@@ -325,10 +351,16 @@ fn flutter(text: &mut Outline, report: &Report) {
                 });
             format!("Flutter speed: {rpm:.0} rpm{error} (growth of {threshold} 1/s or more)")
         }
-        None => format!(
-            "No flutter of {threshold} 1/s or more up to {:.0} rpm",
-            report.campbell.to_rpm
-        ),
+        None => {
+            let open = match report.scene.slot_passing() {
+                Some(_) => " is listed, but slots that pass guides are not covered",
+                None => "",
+            };
+            format!(
+                "No flutter of {threshold} 1/s or more up to {:.0} rpm{open}",
+                report.campbell.to_rpm
+            )
+        }
     });
     let weak = report
         .first_merge_rpm

@@ -5,6 +5,9 @@ use crate::analyses::campbell::{BandCertificate, Report};
 use crate::page::outline::{Outline, PERCENT};
 use crate::page::text::shown_to;
 
+/// Remark on a scene without slots: nearly every production blade has some, and its critical speeds are lower.
+const PLAIN_BLADE: &str = "Plain blade without slots: if the saw has some, give blade.slots, which lowers its critical speeds";
+
 /// Adds the checks in one line and the estimated error; the certificate and the backward errors are details.
 pub fn checks(text: &mut Outline, report: &Report) {
     let certificate = &report.certificate;
@@ -25,6 +28,10 @@ pub fn checks(text: &mut Outline, report: &Report) {
             "Estimated error of the critical speeds: {}",
             PERCENT.digits(2, error).with_unit()
         ));
+    }
+    let blade = &report.scene.blade;
+    if blade.teeth.is_some_and(|teeth| teeth > 0) && blade.slots.is_none() {
+        text.sentence(PLAIN_BLADE);
     }
     text.details(|text| {
         text.sentence(format!("Certificate: {}", certificate.statement));

@@ -15,6 +15,7 @@ pub fn whirl(text: &mut Outline, report: &Report) {
         StabilityState::Flutter => "UNSTABLE, flutter",
         StabilityState::TooClose => "TOO CLOSE TO CALL at the edge of a band",
         StabilityState::NotDetermined => "UNKNOWN, the search for bands failed",
+        StabilityState::NotCovered => "NOT CERTAIN, slots pass guides",
         StabilityState::OutsideSweep => "outside the sweep",
     };
     let critical = whirl

@@ -41,7 +41,12 @@ impl State {
     fn of(saw: &MappedSaw) -> Option<Self> {
         match saw.state {
             _ if saw.not_analysed.is_some() => Some(State::NotAnalysed),
-            None | Some(StabilityState::OutsideSweep | StabilityState::NotDetermined) => None,
+            None
+            | Some(
+                StabilityState::OutsideSweep
+                | StabilityState::NotDetermined
+                | StabilityState::NotCovered,
+            ) => None,
             Some(StabilityState::Stable) if saw.at_critical_rpm.is_some() => {
                 Some(State::AtCritical)
             }

@@ -203,6 +203,7 @@ mod tests {
                         Bore::Clamped(in_plane) => Mount::Collar {
                             diameter_m,
                             in_plane,
+                            clamp_stiffness_n_m_per_rad_per_m: None,
                         },
                     };
                     saw.guides.clear();

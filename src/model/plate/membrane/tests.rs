@@ -20,6 +20,7 @@ fn paper_with(membrane: &str, bore: Bore) -> (Blade, Membrane) {
                 file.mount = Mount::Collar {
                     diameter_m,
                     in_plane,
+                    clamp_stiffness_n_m_per_rad_per_m: None,
                 };
             }
         })

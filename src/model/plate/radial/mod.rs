@@ -1,6 +1,7 @@
 //! Radial functions R_nj(r): polynomials, orthonormal with weight r on the annulus.
 //!
-//! A free edge imposes no condition on them. For a clamped bore they are multiplied by ((r−a)/(b−a))². For n
+//! A free edge imposes no condition on them. For a clamped bore they are multiplied by ((r−a)/(b−a))², for a clamp that yields
+//! to a slope by (r−a)/(b−a). For n
 //! = 1 on a free bore the first two are rotated so that the first is the rigid tilt, R ∝ r; for n = 0 the
 //! first is the rigid heave.
 //!
@@ -33,7 +34,8 @@ pub struct RadialValues {
 pub(crate) struct RadialBasis {
     inner_radius_m: f64,
     width_m: f64,
-    clamped: bool,
+    /// Power of (r−a)/(b−a) that the functions contain: 0 for a free bore, 1 for a clamp that yields, 2 for a rigid one.
+    held: usize,
     /// Three-term recurrence x pⱼ = offᵢ₊₁ pⱼ₊₁ + diagⱼ pⱼ + offⱼ pⱼ₋₁; `off[0]` scales p₀.
     diag: Vec<f64>,
     off: Vec<f64>,
@@ -90,7 +92,11 @@ impl RadialBasis {
         let mut basis = RadialBasis {
             inner_radius_m: a,
             width_m: b - a,
-            clamped: matches!(blade.bore, Bore::Clamped(_)),
+            held: match (blade.bore, blade.clamp_n_m_per_rad_per_m) {
+                (Bore::Free, _) => 0,
+                (Bore::Clamped(_), Some(_)) => 1,
+                (Bore::Clamped(_), None) => 2,
+            },
             diag: Vec::with_capacity(functions),
             off: Vec::with_capacity(functions),
             tilt: None,
@@ -99,7 +105,7 @@ impl RadialBasis {
             rule,
         };
         basis.stieltjes(functions);
-        if !basis.clamped {
+        if basis.held == 0 {
             basis.tilt = Some(basis.tilt_turn());
         }
         if !powers.is_empty() {
@@ -122,13 +128,12 @@ impl RadialBasis {
     pub(crate) fn degree(&self) -> usize {
         let powers = self.knots.iter().flat_map(|knots| &knots.powers);
         let highest = powers.map(|own| own.power as usize).max().unwrap_or(0);
-        let clamp = if self.clamped { 2 } else { 0 };
-        clamp + highest.max(self.diag.len() - 1)
+        self.held + highest.max(self.diag.len() - 1)
     }
 
     /// Whether rigid heave and tilt are part of the motion.
     pub(crate) fn has_rigid_motions(&self) -> bool {
-        !self.clamped
+        self.held == 0
     }
 
     /// Rule that integrates products of two radial functions with r dr, r⁻¹ dr and r⁻³ dr to rounding; the
@@ -182,11 +187,12 @@ impl RadialBasis {
 
     /// The factor of a clamped bore and its two derivatives.
     fn clamp(&self, r: f64) -> [f64; 3] {
-        if !self.clamped {
-            return [1.0, 0.0, 0.0];
-        }
         let t = (r - self.inner_radius_m) / self.width_m;
-        [t * t, 2.0 * t / self.width_m, 2.0 / self.width_m.powi(2)]
+        match self.held {
+            0 => [1.0, 0.0, 0.0],
+            1 => [t, self.width_m.recip(), 0.0],
+            _ => [t * t, 2.0 * t / self.width_m, 2.0 / self.width_m.powi(2)],
+        }
     }
 
     /// Gram–Schmidt orthogonalization, repeated because one pass loses digits.

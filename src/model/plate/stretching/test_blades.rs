@@ -38,6 +38,7 @@ pub fn collar(saw: &mut SceneFile, in_plane: InPlane) {
     saw.mount = Mount::Collar {
         diameter_m: 0.24,
         in_plane,
+        clamp_stiffness_n_m_per_rad_per_m: None,
     };
 }
 

@@ -1,0 +1,68 @@
+//! Remarks on slots: what the model makes of them, and what it does not cover.
+
+use crate::model::plate::Plate;
+use crate::model::scene::{Scene, SlotPassing};
+use crate::page::text::shown_to;
+
+/// Share of a wave in one mode below which the wave is said to be mixed with others.
+const MIXED: f64 = 0.9;
+
+/// Names the waves that slots split, and those that they mix with others.
+pub(super) fn slotted(plate: &Plate) -> Option<String> {
+    let slotted = plate.slotted()?;
+    let waves = || slotted.waves.iter().enumerate().skip(2);
+    let split = waves().filter_map(|(n, own)| match own.as_slice() {
+        [low, high] => {
+            let apart = 100.0 * ((high.bending / low.bending).sqrt() - 1.0);
+            Some(format!("n = {n} by {} %", shown_to(2, apart)))
+        }
+        _ => None,
+    });
+    let split: Vec<String> = split.take(3).collect();
+    let split = if split.is_empty() {
+        String::new()
+    } else {
+        format!(
+            "; pairs of waves are split at rest ({}), and critical speeds are those of the lower branch",
+            split.join(", ")
+        )
+    };
+    let mut mixed = waves().filter(|(_, own)| own.iter().any(|branch| branch.share < MIXED));
+    let mixed = mixed.next().map_or(String::new(), |(n, _)| {
+        format!(
+            "; from {n} nodal diameters on, modes of the slotted blade mix several waves, for which single waves with a mean stand here"
+        )
+    });
+    Some(format!(
+        "the slots are cuts of width zero without holes, in an axisymmetric blade of the same bending and mean stress, whose critical \
+         speeds are up to 0.7 % too high{split}{mixed}"
+    ))
+}
+
+/// Says what is not covered where slots pass guides.
+pub(super) fn passing(scene: &Scene) -> Option<String> {
+    let where_covered = match scene.file().slot_passing()? {
+        SlotPassing::Inside => {
+            "all guides end well inside the slots, where this matters above the first critical speed: no speed above it is called stable"
+        }
+        SlotPassing::Beside => {
+            "a guide or wood lies beside the slots or close to their ends, where most speeds may grow: no speed is called stable"
+        }
+    };
+    Some(format!(
+        "slots turn and guides do not, so that vibrations may also grow at speeds outside the listed bands (parametric resonance), which is \
+         not computed; {where_covered}"
+    ))
+}
+
+/// Names the loads that act on the blade as if it had no slots.
+pub(super) fn loaded(scene: &Scene) -> Option<String> {
+    let slots = scene.file().blade.slots?;
+    let in_cut = scene.cut().is_some_and(|cut| cut.chart.is_some());
+    in_cut.then(|| {
+        format!(
+            "the forces of the cut stress the blade here as if it had no slots; it has {}",
+            slots.count
+        )
+    })
+}
