@@ -797,7 +797,8 @@ class Scene(Drawn, Mapping[str, Value]):
         Parameters
         ----------
         vary : dict or list of str, optional
-            The number, by its path in the scene, with or without bounds; guides[*] are all guides at once.
+            The number, by its path in the scene, with or without bounds; `guides[*]` are all guides at
+            once.
         points : int
             Number of saws between the bounds among which ranges are searched.
         operating_rpm : float, optional

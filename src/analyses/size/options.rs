@@ -13,7 +13,7 @@ use crate::model::scene::{Freed, NamedBounds, RefusedValue, Scene, SceneFile};
 #[derive(Debug, Clone, PartialEq, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct Options {
-    /// The number, by its path in the scene, with or without bounds; guides[*] are all guides at once.
+    /// The number, by its path in the scene, with or without bounds; `guides[*]` are all guides at once.
     #[schemars(extend("x-kind" = "bounds"))]
     pub vary: Vec<NamedBounds>,
     /// Number of saws between the bounds among which ranges are searched.
