@@ -1,11 +1,10 @@
 //! Errors of an analysis.
 
-use super::expected_work::in_words;
 use crate::model::plate::MOST_DIAMETERS;
 use crate::model::scene::SceneError;
 use crate::modes::SpectrumError;
 use crate::modes::branches::CampbellError;
-use crate::page::text::{rounded_down, shown};
+use crate::page::text::{rounded_down, shown, time_in_words};
 
 /// Reason why a saw could not be analysed: a failed eigenproblem, or a sweep beyond the validity of the
 /// model.
@@ -59,7 +58,7 @@ pub enum AnalysisError {
     },
     /// The search for bands would take too long.
     #[error(
-        "{key} must be at most {} (you gave {}): the search for bands over {critical_speeds} critical speeds would take about {} of processor time, more than {}; end the sweep there, and chart the speeds above in a sweep of their own, by sweep.from_rpm", shown(*.limit_rpm), shown(*.to_rpm), in_words(*.needed_s), in_words(*.allowed_s)
+        "{key} must be at most {} (you gave {}): the search for bands over {critical_speeds} critical speeds would take about {} of processor time, more than {}; end the sweep there, and chart the speeds above in a sweep of their own, by sweep.from_rpm", shown(*.limit_rpm), shown(*.to_rpm), time_in_words(*.needed_s), time_in_words(*.allowed_s)
     )]
     TooLong {
         /// Key or argument that requires a speed.

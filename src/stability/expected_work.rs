@@ -9,7 +9,7 @@ use super::basis::ChosenBasis;
 use super::error::{AnalysisError, END_OF_SWEEP};
 use crate::model::scene::{Scene, SpeedRange, rpm};
 use crate::modes::{SpectrumError, kept_waves};
-use crate::page::text::rounded_between;
+use crate::page::text::{rounded_between, time_in_words};
 
 /// Work above this number of seconds of processor time is announced to the user before it begins.
 const LONG_S: f64 = 10.0;
@@ -147,15 +147,6 @@ fn longest_end(chosen: &ChosenBasis, range: SpeedRange) -> Result<f64, SpectrumE
     })
 }
 
-/// A time in words.
-pub(super) fn in_words(seconds: f64) -> String {
-    match seconds {
-        seconds if seconds < 90.0 => format!("{:.0} seconds", 10.0 * (seconds / 10.0).round()),
-        seconds if seconds < 5400.0 => format!("{:.0} minutes", seconds / 60.0),
-        seconds => format!("{:.0} hours", seconds / 3600.0),
-    }
-}
-
 impl fmt::Display for ExpectedWork {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(
@@ -163,7 +154,7 @@ impl fmt::Display for ExpectedWork {
             "{} critical speeds are within the sweep to {:.0} rpm: the search for bands takes about {} of processor time, a rough estimate; where that is too long, lower sweep.to_rpm",
             self.critical_speeds,
             self.to_rpm,
-            in_words(self.seconds)
+            time_in_words(self.seconds)
         )
     }
 }

@@ -19,6 +19,7 @@
 //! ```
 
 pub(crate) mod chart;
+mod command;
 mod equilibria;
 mod error;
 mod options;

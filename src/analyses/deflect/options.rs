@@ -3,9 +3,7 @@
 use schemars::JsonSchema;
 use serde::Deserialize;
 
-use super::{DeflectError, DeflectReport, deflect};
-use crate::analyses::door::{CommandError, CommandOptions, Progress, SceneNumber};
-use crate::model::scene::{RefusedValue, Scene, SideForce, speed_rad_per_s};
+use crate::model::scene::{RefusedValue, SideForce, speed_rad_per_s};
 use crate::motion::stretched_blade::LARGEST_SLOPE;
 use crate::page::text::{rounded_down, shown_to};
 
@@ -26,36 +24,6 @@ impl Options {
         match self.to_rpm {
             Some(to_rpm) => speed_rad_per_s("to_rpm", to_rpm).map(|_| ()),
             None => Ok(()),
-        }
-    }
-}
-
-impl CommandOptions for Options {
-    type Report = DeflectReport;
-    const COMMAND: &str = "deflect";
-    const METHOD: &str = "run_deflect";
-    const SETS: &[SceneNumber] = &[
-        SceneNumber::FORCE,
-        SceneNumber::new(
-            "angle_deg",
-            "",
-            "side_force.angle_deg",
-            "Angle of the side force, in place of that of the scene",
-        ),
-    ];
-
-    fn compute(&self, scene: &Scene, _: Progress<'_>) -> Result<DeflectReport, CommandError> {
-        Ok(deflect(scene, self)?)
-    }
-}
-
-impl From<DeflectError> for CommandError {
-    fn from(error: DeflectError) -> Self {
-        match error {
-            DeflectError::Refused(source) => source.into(),
-            DeflectError::Scene(source) => source.into(),
-            DeflectError::Analysis(source) => source.into(),
-            DeflectError::Stretched(source) => source.into(),
         }
     }
 }

@@ -21,6 +21,7 @@
 
 mod amplitude;
 pub(crate) mod chart;
+mod command;
 mod critical_speed;
 mod deviation;
 mod error;

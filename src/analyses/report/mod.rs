@@ -7,6 +7,7 @@
 //! guide.
 
 mod change;
+mod command;
 mod decisive_speed;
 mod error;
 mod options;

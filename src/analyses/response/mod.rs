@@ -11,6 +11,7 @@
 //! the linear model are not reported.
 
 pub(crate) mod chart;
+mod command;
 mod options;
 mod outline;
 mod points;

@@ -3,9 +3,7 @@
 use schemars::JsonSchema;
 use serde::Deserialize;
 
-use super::{ResponseError, ResponseReport, response};
-use crate::analyses::door::{CommandError, CommandOptions, Progress};
-use crate::model::scene::{RefusedValue, Scene, SpeedRange, rad_per_s, rpm, speed_rad_per_s};
+use crate::model::scene::{RefusedValue, SpeedRange, rad_per_s, rpm, speed_rad_per_s};
 use crate::page::text::shown;
 
 /// Computes the steady state over the speed for the excitation of the blocks side_force and response of the scene, or for
@@ -18,27 +16,6 @@ pub struct Options {
     /// Largest frequency of that; by default that up to which the diagram is complete.
     #[schemars(extend("x-option" = "to-frequency"))]
     pub to_hz: Option<f64>,
-}
-
-impl CommandOptions for Options {
-    type Report = ResponseReport;
-    const COMMAND: &str = "response";
-    const METHOD: &str = "run_response";
-
-    fn compute(&self, scene: &Scene, _: Progress<'_>) -> Result<ResponseReport, CommandError> {
-        Ok(response(scene, self)?)
-    }
-}
-
-impl From<ResponseError> for CommandError {
-    fn from(error: ResponseError) -> Self {
-        match error {
-            ResponseError::Refused(source) => source.into(),
-            ResponseError::Scene(source) => source.into(),
-            ResponseError::Analysis(source) => source.into(),
-            ResponseError::Spectrum(source) => source.into(),
-        }
-    }
 }
 
 impl Options {

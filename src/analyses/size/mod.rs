@@ -6,12 +6,14 @@
 
 pub(crate) mod chart;
 mod edge;
+mod error;
 mod options;
 mod outline;
 mod report;
 mod rounding;
 mod saw;
 
+pub use error::SizeError;
 pub use options::Options;
 pub(crate) use outline::outline;
 pub use report::{SizeAnswer, SizeReport, SizedLimit, SizedWindow};
@@ -20,29 +22,14 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 
 use rayon::prelude::*;
 
-use crate::analyses::check::{CheckError, CheckReport};
+use crate::analyses::check::CheckReport;
 use crate::analyses::door::{Progress, Step};
 use crate::analyses::scene_number;
-use crate::model::scene::{Freed, Quantity, RefusedValue, Scene};
-use crate::modes::SpectrumError;
+use crate::model::scene::{Freed, Quantity, Scene};
 
 use edge::{Bracket, closed_in};
 use rounding::rounded_inside;
 use saw::{Question, SizedSaw, margin};
-
-/// Reason for which a number was not sized.
-#[derive(Debug, thiserror::Error)]
-pub enum SizeError {
-    /// The scene has no operating speed.
-    #[error(transparent)]
-    Refused(#[from] RefusedValue),
-    /// The saw of the answer could not be checked.
-    #[error(transparent)]
-    Check(#[from] CheckError),
-    /// The computation was cancelled.
-    #[error(transparent)]
-    Spectrum(#[from] SpectrumError),
-}
 
 /// Tolerance with which ranges are searched, before their ends are found with that of the scene.
 const SEARCHED: f64 = 1e-2;

@@ -3,8 +3,6 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::Scene;
-
 /// Limits that the saw has to keep, for every verdict. An absent one is that of practice, if there is one.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
@@ -45,12 +43,5 @@ impl LimitsFile {
     /// The limit of the rim speed.
     pub fn max_rim_m_per_s(&self) -> f64 {
         self.max_rim_m_per_s.unwrap_or(USUAL_MAX_RIM_M_PER_S)
-    }
-}
-
-impl Scene {
-    /// The limits that the saw has to keep.
-    pub fn limits(&self) -> LimitsFile {
-        self.file.limits.unwrap_or_default()
     }
 }

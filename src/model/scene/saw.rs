@@ -2,9 +2,9 @@
 
 use super::runup::DEFAULT_PROBE_DEG;
 use super::{
-    Accuracy, Blade, Cut, DampingFile, ExcitationLine, Guide, Membrane, OscillatingForce, Point,
-    RunUpFile, SceneError, SceneFile, SideForce, SpeedRange, SplineFile, SweepFile, in_the_cut,
-    rad_per_s, rpm,
+    Accuracy, Blade, Cut, DampingFile, ExcitationLine, Guide, LimitsFile, Membrane,
+    OscillatingForce, Point, RunUpFile, SceneError, SceneFile, SideForce, SpeedRange, SplineFile,
+    SweepFile, in_the_cut, rad_per_s, rpm,
 };
 
 /// A validated saw. It contains the scene as typed and the numbers derived from it, so that it cannot be
@@ -25,6 +25,11 @@ pub struct Scene {
 }
 
 impl Scene {
+    /// The limits that the saw has to keep.
+    pub fn limits(&self) -> LimitsFile {
+        self.file.limits.unwrap_or_default()
+    }
+
     /// The saw with changes to the scene as typed, validated again.
     ///
     /// ```

@@ -53,6 +53,15 @@ pub fn rounded_between(low: f64, high: f64) -> f64 {
     between.next().unwrap_or(low)
 }
 
+/// A time in words, to about a tenth.
+pub fn time_in_words(seconds: f64) -> String {
+    match seconds {
+        seconds if seconds < 90.0 => format!("{:.0} seconds", 10.0 * (seconds / 10.0).round()),
+        seconds if seconds < 5400.0 => format!("{:.0} minutes", seconds / 60.0),
+        seconds => format!("{:.0} hours", seconds / 3600.0),
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::{fixed, rounded_between, shown};
