@@ -18,29 +18,46 @@ pub(super) struct Condition {
     pub(super) path: &'static str,
     /// Required value; null if any value is sufficient.
     pub(super) is: Option<&'static str>,
+    /// Whether the scene must have nothing there.
+    pub(super) absent: bool,
 }
 
-const GUIDES: Condition = Condition {
-    path: "guides",
-    is: None,
-};
-const HELD: &[Condition] = &[
-    GUIDES,
-    Condition {
-        path: "mount.kind",
-        is: Some("collar"),
-    },
-];
+impl Condition {
+    /// The scene has something at a path.
+    const fn at(path: &'static str) -> Self {
+        Condition {
+            path,
+            is: None,
+            absent: false,
+        }
+    }
+
+    /// The scene has this value at a path.
+    const fn with(path: &'static str, is: &'static str) -> Self {
+        Condition {
+            is: Some(is),
+            ..Condition::at(path)
+        }
+    }
+
+    /// The scene has nothing at a path.
+    const fn without(path: &'static str) -> Self {
+        Condition {
+            absent: true,
+            ..Condition::at(path)
+        }
+    }
+}
+
+const GUIDES: Condition = Condition::at("guides");
+const HELD: &[Condition] = &[GUIDES, Condition::with("mount.kind", "collar")];
 const NOT_HELD: &str = "This needs a guide or a collar that holds the blade.";
 
 /// Conditions of all parts and tasks that have one.
 pub const NEEDS: &[Need] = &[
     Need {
         of: "spline",
-        any: &[Condition {
-            path: "mount.kind",
-            is: Some("spline"),
-        }],
+        any: &[Condition::with("mount.kind", "spline")],
         otherwise: "A spline needs the mount of that name.",
     },
     Need {
@@ -55,19 +72,23 @@ pub const NEEDS: &[Need] = &[
     },
     Need {
         of: "fit",
-        any: &[Condition {
-            path: "measured",
-            is: None,
-        }],
+        any: &[Condition::at("measured")],
         otherwise: "The scene has no measured frequencies yet.",
     },
     Need {
         of: "gap",
-        any: &[Condition {
-            path: "guides[].contact",
-            is: Some("one_sided"),
-        }],
+        any: &[Condition::with("guides[].contact", "one_sided")],
         otherwise: "The scene has no guide with a gap: give a guide the contact one_sided and its gap.",
+    },
+    Need {
+        of: "blade.slots",
+        any: &[Condition::without("membrane")],
+        otherwise: "Slots of a blade with heat or tension are not modelled yet.",
+    },
+    Need {
+        of: "membrane",
+        any: &[Condition::without("blade.slots")],
+        otherwise: "Heat and tension of a slotted blade are not modelled yet.",
     },
     Need {
         of: "place",

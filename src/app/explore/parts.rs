@@ -9,11 +9,11 @@ use super::refusal::Refusal;
 use crate::model::scene::typical_block::rounded;
 use crate::model::scene::{
     ContactLaw, CutFile, CutSpeedFile, DampingFile, ExcitationFile, FrictionFile, GuideArmFile,
-    GuideControllerFile, GuideFile, GuideFilmFile, ModeRatioRow, ProbeFile, ResidualStressRow,
-    ResponseFile, RimFile, RollBandFile, Scene, SceneFile, StraightEdgeFile, SweepFile,
-    TemperatureFile, TemperatureRow, ThicknessRow, WoodFile, typical_block, typical_value,
+    GuideControllerFile, GuideFile, GuideFilmFile, LimitsFile, ModeRatioRow, ProbeFile,
+    ResidualStressRow, ResponseFile, RimFile, RollBandFile, Scene, SceneFile, SlotsFile,
+    StraightEdgeFile, SweepFile, TemperatureFile, TemperatureRow, ThicknessRow, USUAL_MARGIN,
+    WoodFile, typical_block, typical_value,
 };
-use crate::model::scene::{LimitsFile, USUAL_MARGIN};
 
 /// A request for a part.
 #[derive(Deserialize)]
@@ -147,6 +147,10 @@ fn add_gap(scene: &mut SceneFile, guide: &str) -> Option<()> {
     Some(())
 }
 
+/// Number of expansion slots of a usual blade, and their depth as a share of the width of the moving ring.
+const USUAL_SLOTS: u32 = 4;
+const SLOT_DEPTH: f64 = 0.2;
+
 fn add_to_blade(scene: &mut SceneFile, part: &str) -> Option<()> {
     match part {
         "rim" => {
@@ -158,6 +162,15 @@ fn add_to_blade(scene: &mut SceneFile, part: &str) -> Option<()> {
             scene.blade.rim = Some(RimFile {
                 mass_per_tooth_kg: rounded(per_area * 0.25 * pitch * pitch, 1),
                 radius_m: None,
+            });
+        }
+        "slots" => {
+            scene.blade.slots = Some(SlotsFile {
+                count: USUAL_SLOTS,
+                depth_m: rounded(SLOT_DEPTH * (rim(scene) - inner(scene)), 2),
+                width_m: None,
+                inclination_deg: None,
+                hole_diameter_m: None,
             });
         }
         "profile[]" => {
@@ -275,7 +288,8 @@ mod tests {
     use crate::app::explore::examples::examples;
     use crate::app::explore::needs::NEEDS;
 
-    const PARTS: [&str; 26] = [
+    const PARTS: [&str; 27] = [
+        "blade.slots",
         "limits",
         "response",
         "damping.mode_ratios[]",
@@ -312,6 +326,10 @@ mod tests {
         !need.any.iter().any(|condition| {
             let pointer = format!("/{}", condition.path.replace('.', "/"));
             let value = json.pointer(&pointer);
+            let is_there = value.is_some_and(|value| !value.is_null());
+            if condition.absent {
+                return !is_there;
+            }
             value.is_some_and(|value| condition.is.is_none_or(|is| value == is))
         })
     }
@@ -340,7 +358,9 @@ mod tests {
                 if let Err(error) = Scene::try_from(made.clone()) {
                     panic!("{}: {first}: {error}", scene.name);
                 }
-                for second in PARTS.iter().filter(|part| part.ends_with("[]")) {
+                let is_slotted = made.blade.slots.is_some();
+                let lists = PARTS.iter().filter(|part| part.ends_with("[]"));
+                for second in lists.filter(|part| !(is_slotted && part.starts_with("membrane"))) {
                     let error = Scene::try_from(with(&made, second)).err();
                     assert!(
                         error.is_none(),

@@ -81,7 +81,7 @@ class Axes {
 class Sized {
   #offered = "";
   #number = node("select");
-  #bounds = node("input", { id: "size-bounds", type: "text", placeholder: "usual, or 1.8mm..3.2mm" });
+  #bounds = node("input", { id: "size-bounds", type: "text", placeholder: "usual", title: "The usual bounds, or others like 1.8mm..3.2mm" });
 
   constructor(place, usual) {
     this.place = place;
