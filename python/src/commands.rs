@@ -8,9 +8,9 @@ use pyo3::types::PyDict;
 use sawflutter::analyses::campbell::{ModeShape, Sensitivity};
 use sawflutter::analyses::commands::Call;
 use sawflutter::analyses::compare::{LabelledSaw, Saw, compare as compare_saws};
-use sawflutter::analyses::door::Step;
+use sawflutter::analyses::door::{Argument, ArgumentKind, CommandError, Step};
 use sawflutter::analyses::tradeoff::tradeoff;
-use sawflutter::model::scene::Scene;
+use sawflutter::model::scene::{RefusedValue, Scene};
 use sawflutter::modes::{SpectralModel, Strategy};
 use sawflutter::stability::{Analysis, AnalysisOptions, ChosenBasis, ExpectedWork};
 use serde::Serialize;
@@ -39,7 +39,9 @@ pub fn run(
         let scene = arguments::scene(scene)?;
         return compute(py, progress, move |meter| {
             let show = |step: Step| meter.show_of(step.what, step.done, step.of);
-            let ran = call.run(scene, given, &show)?;
+            let ran = call
+                .run(scene, given, &show)
+                .map_err(|error| with_remedy(call, error))?;
             Ok((json(&ran.json)?, ran.assumed))
         });
     }
@@ -54,6 +56,34 @@ pub fn run(
     let scene = arguments::scene(scene)?;
     let report = compute(py, progress, move |meter| work(&scene, meter))?;
     Ok((report, None))
+}
+
+/// The error of a missing block with the arguments beside which typical numbers are assumed for it.
+fn with_remedy(call: &Call, error: CommandError) -> CommandError {
+    let CommandError::Refused(refused) = error else {
+        return error;
+    };
+    let block = format!("{}.", refused.key);
+    let is_number = |of: &&Argument| matches!(of.kind, ArgumentKind::Number(_));
+    let of_block = call.arguments.iter().filter(is_number);
+    let names: Vec<&str> = of_block
+        .filter(|of| of.sets.starts_with(&block))
+        .map(|of| of.name.as_str())
+        .collect();
+    match names.first() {
+        Some(first) if refused.is_missing() => {
+            let (all, method) = (names.join(", "), call.method);
+            let remedy = format!(
+                "{}, or give one of {all}, beside which typical numbers are assumed: {method}({first}=...)",
+                refused.remedy
+            );
+            CommandError::Refused(RefusedValue {
+                remedy: remedy.into(),
+                ..refused
+            })
+        }
+        _ => CommandError::Refused(refused),
+    }
 }
 
 /// JSON as the program writes it to its files.
