@@ -826,7 +826,7 @@ class Scene(Drawn, Mapping[str, Value]):
         >>> saw = sf.Scene.paper().replace({"accuracy": "draft", "operating_rpm": 1250, "sweep": None})
         >>> found = saw.size({"blade.thickness_m": ("2 mm", "3.2 mm")}, points=3)
         >>> found.windows[0].above is None, round(found.windows[0].from_, 4)
-        (True, 0.0026)
+        (True, 0.0027)
         """
         return self._asked(SizeResults, accuracy, tolerance, progress, vary=vary, points=whole("points",
             points), operating_rpm=operating_rpm, margin=margin, min_flutter_rpm=min_flutter_rpm,

@@ -53,7 +53,7 @@ EXAMPLES = {
     >>> saw = sf.Scene.paper().replace({"accuracy": "draft", "operating_rpm": 1250, "sweep": None})
     >>> found = saw.size({"blade.thickness_m": ("2 mm", "3.2 mm")}, points=3)
     >>> found.windows[0].above is None, round(found.windows[0].from_, 4)
-    (True, 0.0026)
+    (True, 0.0027)
     """,
     "place": """
     >>> import sawflutter as sf
