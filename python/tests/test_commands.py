@@ -55,7 +55,7 @@ def test_a_sized_number_is_where_a_check_passes(draft: sf.Scene) -> None:
     for thickness_m, passes in [(window.from_, True), (0.999 * window.from_, False)]:
         assert bool(saw.replace({"blade.thickness_m": thickness_m}).check()) is passes
     assert found.answer is not None and found.answer.value == 0.0028
-    assert found.saw["blade"]["thickness_m"] == 0.0028
+    assert found.saw["blade.thickness_m"] == 0.0028
     assert found.plot_matplotlib() is not None
     with pytest.raises(sf.ArgumentError, match="one number"):
         saw.size(["blade.thickness_m", "guides[0].radius_m"])
