@@ -62,7 +62,7 @@ def test_what_is_no_table_of_frequencies_says_what_is(measured: Any) -> None:
 def test_numbers_of_numpy_go_wherever_numbers_go(draft: sf.Scene) -> None:
     speed = np.float32(1250.0)
     assert draft.check(operating_rpm=speed, margin=np.float64(0.85)) == draft.check(
-        operating_rpm=1250.0
+        operating_rpm=1250.0, margin=0.85
     )
     assert draft.matrices(basis=(np.int64(6), np.int8(4))) == draft.matrices(basis=(6, 4))
     assert draft.run_campbell(tolerance=np.float64(3e-3)) == draft.run_campbell(tolerance=3e-3)
