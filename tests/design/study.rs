@@ -384,3 +384,19 @@ fn a_study_says_what_the_gap_does() {
     assert_eq!(gap.saws_within, Some(within.count()));
     assert_eq!(gap.deflection_at_cut.median, inside[1][0]);
 }
+
+/// The numbers of the scene are all usual; a limit of the study is not, and is named as before the scene had limits of its own.
+#[test]
+fn an_unusual_limit_of_a_study_is_said() {
+    let asked = r#"{ "name": "slow", "saws": 1, "to_rpm": 1000,
+        "parameters": [{ "path": "blade.thickness_m",
+                         "distribution": { "kind": "tolerance", "plus_minus": 1e-5 } }],
+        "limits": { "operating_rpm": 500, "min_critical_rpm": 3 } }"#;
+    let study = study(free_blade(), asked).unwrap();
+    let report = study.report(&all(&study)).unwrap();
+    let said = "the lower limit of the first critical speed is 3 rpm";
+    let [number] = report.unusual_numbers.as_slice() else {
+        panic!("{:?}", report.unusual_numbers);
+    };
+    assert!(number.starts_with(said), "{number}");
+}

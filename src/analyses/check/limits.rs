@@ -63,16 +63,32 @@ impl Limits {
     /// Unusual numbers of a scene and of these limits.
     pub fn unusual_numbers(&self, scene: &Scene) -> Vec<String> {
         let file = scene.file();
-        let operating_rpm = rpm(self.operating_rad_per_s);
-        let is_asked = scene.operating_rad_per_s() != Some(self.operating_rad_per_s);
-        let asked = [(
-            "the operating speed",
-            "operating_rpm",
-            is_asked.then_some(operating_rpm),
-        )];
+        let of_scene = scene.limits();
+        let asked = [
+            (
+                "the operating speed",
+                "operating_rpm",
+                Some(self.operating_rad_per_s),
+                scene.operating_rad_per_s(),
+            ),
+            (
+                "the lower limit of the flutter speed",
+                "sweep.to_rpm",
+                self.min_flutter_rad_per_s,
+                of_scene.min_flutter_rpm.map(rad_per_s),
+            ),
+            (
+                "the lower limit of the first critical speed",
+                "sweep.to_rpm",
+                self.min_critical_rad_per_s,
+                of_scene.min_critical_rpm.map(rad_per_s),
+            ),
+        ];
+        // Those of the scene are among its own numbers.
         let of_limits = asked
             .into_iter()
-            .filter_map(|(label, path, value)| unusual_number(file, label, path, value?));
+            .filter(|(_, _, asked, of_scene)| asked != of_scene)
+            .filter_map(|(label, path, asked, _)| unusual_number(file, label, path, rpm(asked?)));
         file.unusual_numbers()
             .into_iter()
             .chain(of_limits)
