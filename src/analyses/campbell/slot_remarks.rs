@@ -1,11 +1,20 @@
 //! Remarks on slots: what the model makes of them, and what it does not cover.
 
 use crate::model::plate::Plate;
-use crate::model::scene::{Scene, SlotPassing};
+use crate::model::scene::{Scene, SceneFile, SlotPassing};
 use crate::page::text::shown_to;
 
 /// Share of a wave in one mode below which the wave is said to be mixed with others.
 const MIXED: f64 = 0.9;
+
+/// Names the blade for which an error is estimated, unless it is that of the scene.
+pub(super) fn of_model(scene: &SceneFile) -> &'static str {
+    if scene.blade.slots.is_some() {
+        " of the axisymmetric blade"
+    } else {
+        ""
+    }
+}
 
 /// Names the waves that slots split, and those that they mix with others.
 pub(super) fn slotted(plate: &Plate) -> Option<String> {

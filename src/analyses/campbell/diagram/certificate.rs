@@ -2,6 +2,7 @@
 
 use super::plan::{CERTIFICATE_ABOVE_FOOT, FACTS_ABOVE_FOOT, HEIGHT, PLOT_LEFT, WIDTH};
 use crate::analyses::campbell::Report;
+use crate::analyses::campbell::slot_remarks::of_model;
 use crate::page::figure::axis::{raised, two_digits};
 use crate::page::figure::canvas::{Anchor, Lettering, Sheet};
 use crate::page::figure::style::{ALARM, BETWEEN_FACTS, LABEL_SIZE, MARGIN, QUIET, shorten_label};
@@ -36,7 +37,11 @@ fn facts(report: &Report) -> Vec<String> {
     let functions = format!("{} functions", accuracy.degrees_of_freedom);
     let error = accuracy.estimated_relative_error;
     facts.push(match error.filter(|_| !report.critical_speeds.is_empty()) {
-        Some(error) => format!("{functions}, critical speeds within {}", percent(error)),
+        Some(error) => format!(
+            "{functions}, critical speeds{} within {}",
+            of_model(&report.scene),
+            percent(error)
+        ),
         None => functions,
     });
     facts

@@ -1,6 +1,7 @@
 //! Statements below the title.
 
 use crate::analyses::campbell::{InstabilityKind, Report};
+use crate::model::scene::SlotPassing;
 
 /// Size of the saw, numbers of its events, and verdict on flutter.
 pub fn facts(report: &Report) -> Vec<String> {
@@ -26,7 +27,29 @@ pub fn facts(report: &Report) -> Vec<String> {
         "bands of instability",
     );
     let saw = report.condition.clone();
-    vec![saw, size, guides, critical, bands, verdict(report)]
+    let slots = blade.slots.map(|slots| {
+        let depth = millimetres(slots.depth_m);
+        format!(
+            "{} of {depth} mm",
+            count(slots.count as usize, "slot", "slots")
+        )
+    });
+    // The title has room for some facts: the first are those without which the others mislead.
+    let first = std::iter::once(saw).chain(not_covered(report));
+    let facts = first.chain([size]).chain(slots);
+    facts
+        .chain([guides, critical, bands, verdict(report)])
+        .collect()
+}
+
+/// Speeds at which the bands of a slotted saw are not certain.
+fn not_covered(report: &Report) -> Option<String> {
+    match report.scene.slot_passing()? {
+        SlotPassing::Inside => {
+            Some("slots pass guides: not certain above the first critical speed".to_owned())
+        }
+        SlotPassing::Beside => Some("slots pass guides: not certain at any speed".to_owned()),
+    }
 }
 
 fn verdict(report: &Report) -> String {

@@ -1,6 +1,7 @@
 //! The checks of a diagram, and its accuracy.
 
 use crate::analyses::campbell::certificate::interpolated;
+use crate::analyses::campbell::slot_remarks::of_model;
 use crate::analyses::campbell::{BandCertificate, Report};
 use crate::page::outline::{Outline, PERCENT};
 use crate::page::text::shown_to;
@@ -25,7 +26,8 @@ pub fn checks(text: &mut Outline, report: &Report) {
     let accuracy = &report.accuracy;
     if let Some(error) = accuracy.estimated_relative_error {
         text.sentence(format!(
-            "Estimated error of the critical speeds: {}",
+            "Estimated error of the critical speeds{}: {}",
+            of_model(&report.scene),
             PERCENT.digits(2, error).with_unit()
         ));
     }
