@@ -55,7 +55,7 @@ pub struct Given<C> {
 }
 
 /// Heading of options that are numbers of the scene.
-const OF_SCENE: &str = "Numbers of the scene, with or without a unit";
+const OF_SCENE: &str = "Numbers of the scene, lengths with their unit";
 
 /// Largest size and encodings of a table of frequencies, which usually has the length of a page.
 const TABLE: Kind = Kind {
