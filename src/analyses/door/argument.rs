@@ -144,10 +144,7 @@ impl From<&SceneNumber> for Argument {
 }
 
 impl ArgumentKind {
-    /// The kind that the schema of a field has.
-    ///
-    /// # Panics
-    /// If there is none; a test reads the schemas of all commands.
+    /// The kind that the schema of a field has. A field of another type has no words, which a test of all commands finds.
     fn of_field(field: &Value, schema: &Value) -> Self {
         let default = &field["default"];
         let type_of = |field: &Value| match &field["type"] {

@@ -3,7 +3,6 @@
 use super::{MapAxis, Range};
 use crate::analyses::study::{DistributionFile, ParameterFile, StudyError, check_varies};
 use crate::model::scene::{Freed, Quantity, Scene, is_logarithmic};
-use crate::page::text::shown;
 
 impl MapAxis {
     /// `points` values of a range, whose ends are exact; `key` names the axis in errors.
@@ -20,11 +19,6 @@ impl MapAxis {
         let Range { path, from, to } = range;
         let freed = Freed::new(scene.file(), path, *from, *to).map_err(refused)?;
         check_varies(key, path)?;
-        let value = |k: usize| match k {
-            0 => *from,
-            _ if k + 1 == points => *to,
-            _ => rounded(freed.value(k as f64 / (points - 1) as f64)),
-        };
         let quantity = Quantity::of(path);
         Ok(MapAxis {
             name: quantity
@@ -32,7 +26,7 @@ impl MapAxis {
                 .to_owned(),
             unit: quantity.map_or("", |quantity| quantity.unit).to_owned(),
             path: path.clone(),
-            values: (0..points).map(value).collect(),
+            values: freed.values(points),
             of_scene: freed.parameter.get(scene.file()).map_err(refused)?,
         })
     }
@@ -58,9 +52,4 @@ impl MapAxis {
             },
         }
     }
-}
-
-/// Rounds a number to the digits of a message, so that 0.66 is not 0.6599999999999999.
-fn rounded(value: f64) -> f64 {
-    shown(value).parse().unwrap_or(value)
 }

@@ -24,20 +24,11 @@ const SHIFT: f64 = 2e-2;
 
 impl Bracket {
     /// The bracket of two saws; `None` if both keep all limits, or neither does.
-    fn between(x: SizedSaw, y: SizedSaw) -> Option<Self> {
+    pub fn between(x: SizedSaw, y: SizedSaw) -> Option<Self> {
         match (x.is_kept(), y.is_kept()) {
             (true, false) => Some(Bracket { kept: x, broken: y }),
             (false, true) => Some(Bracket { kept: y, broken: x }),
             _ => None,
-        }
-    }
-
-    /// The bracket of two saws of which one keeps all limits.
-    pub fn of(x: &SizedSaw, y: &SizedSaw) -> Self {
-        let (kept, broken) = if x.is_kept() { (x, y) } else { (y, x) };
-        Bracket {
-            kept: kept.clone(),
-            broken: broken.clone(),
         }
     }
 

@@ -136,13 +136,7 @@ pub fn size(
 
 /// Values between the bounds, and that of the scene if it is between them.
 fn values(freed: &Freed, of_scene: f64, points: usize) -> Vec<f64> {
-    let mut values: Vec<f64> = (0..points)
-        .map(|k| match k {
-            0 => freed.from,
-            _ if k + 1 == points => freed.to,
-            _ => freed.value(k as f64 / (points - 1) as f64),
-        })
-        .collect();
+    let mut values = freed.values(points);
     if freed.from < of_scene && of_scene < freed.to && !values.contains(&of_scene) {
         values.push(of_scene);
         values.sort_by(f64::total_cmp);
@@ -154,8 +148,7 @@ fn values(freed: &Freed, of_scene: f64, points: usize) -> Vec<f64> {
 fn edges(saws: &[SizedSaw]) -> Vec<Bracket> {
     let pairs = saws.windows(2);
     pairs
-        .filter(|pair| pair[0].is_kept() != pair[1].is_kept())
-        .map(|pair| Bracket::of(&pair[0], &pair[1]))
+        .filter_map(|pair| Bracket::between(pair[0].clone(), pair[1].clone()))
         .collect()
 }
 

@@ -1,11 +1,14 @@
 //! Values that a shop can make.
 
 use super::SizedWindow;
+use crate::model::scene::typical_block::rounded;
 
 /// Blades are ground to tenths of a millimetre.
 const THICKNESS_M: f64 = 1e-4;
 /// Number of significant digits of other numbers.
 const DIGITS: i32 = 3;
+/// Digits that remove the rounding error of a multiple of a step.
+const WRITTEN: usize = 12;
 
 /// A rounded value in a range, some steps inside of the end that is nearer to the value of the scene. The middle of a range that
 /// is narrower.
@@ -24,17 +27,12 @@ pub fn rounded_inside(path: &str, window: &SizedWindow, of_scene: f64, inward: u
     } else {
         (steps + 1e-6).floor() - inward as f64
     };
-    let value = written(whole * step);
+    let value = rounded(whole * step, WRITTEN);
     if (window.from..=window.to).contains(&value) {
         value
     } else {
-        written(0.5 * (window.from + window.to))
+        rounded(0.5 * (window.from + window.to), WRITTEN)
     }
-}
-
-/// The number as it is written with twelve digits, so that 0.0024 is not 0.0024000000000000002.
-fn written(value: f64) -> f64 {
-    format!("{value:.11e}").parse().unwrap_or(value)
 }
 
 #[cfg(test)]

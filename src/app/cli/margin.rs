@@ -6,7 +6,7 @@ use clap::Args;
 use serde_json::json;
 
 use crate::analyses::door::named_bounds;
-use crate::model::scene::{Freed, NamedBounds};
+use crate::model::scene::{Freed, NamedBounds, USUAL_MARGIN};
 
 use super::common::{Folder, count, read_scene, say, share};
 use super::python::Need;
@@ -49,7 +49,7 @@ pub struct Arguments {
     #[arg(long, value_name = "ORDER", num_args = 1.., default_values_t = [1.0, 2.0], value_parser = share)]
     orders: Vec<f64>,
     /// Share of the deciding speed at which the saw may run
-    #[arg(long, value_name = "SHARE", default_value_t = 0.85, value_parser = share)]
+    #[arg(long, value_name = "SHARE", default_value_t = USUAL_MARGIN, value_parser = share)]
     margin: f64,
     /// Steps of the sampling, each with 48 saws
     #[arg(long, value_name = "COUNT", default_value_t = 200, value_parser = count::<usize>)]

@@ -156,6 +156,21 @@ impl Freed {
         self.from + share * (self.to - self.from)
     }
 
+    /// Values that are evenly spaced between the bounds, in the digits of a message, so that 0.66 is not 0.6599999999999999. The
+    /// bounds are exact.
+    pub(crate) fn values(&self, count: usize) -> Vec<f64> {
+        let between = |k: usize| {
+            let value = self.value(k as f64 / (count - 1) as f64);
+            shown(value).parse().unwrap_or(value)
+        };
+        let value = |k: usize| match k {
+            0 => self.from,
+            _ if k + 1 == count => self.to,
+            _ => between(k),
+        };
+        (0..count).map(value).collect()
+    }
+
     /// The share of a value.
     pub fn share(&self, value: f64) -> f64 {
         if self.is_logarithmic() {

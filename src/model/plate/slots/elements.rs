@@ -3,7 +3,10 @@
 //! A function of radius and angle on an element is a sum of products f(r) g(θ), and every energy is a sum of products of one
 //! integral over the radius and one over the angle.
 
+use std::f64::consts::TAU;
+
 use super::super::quadrature::smooth;
+use crate::model::scene::Blade;
 
 /// Points of the rule on an element: exact for products of two cubics, and negative powers of the radius to rounding.
 const POINTS: usize = 6;
@@ -57,18 +60,17 @@ pub fn lagrange(x: f64, l: f64) -> Functions<3> {
     ]
 }
 
-/// Material, thickness, clamp and teeth of a ring.
-pub trait Ring {
-    /// Poisson's ratio.
-    fn poisson_ratio(&self) -> f64;
-    /// Thickness relative to that of the mass and stiffness.
-    fn thickness_ratio(&self, radius_m: f64) -> f64;
-    /// D/ρh of this thickness, in m⁴/s².
-    fn specific_rigidity(&self) -> f64;
-    /// Radius of a circle of mass, and its mass per ρh and radian, in m².
-    fn rim(&self) -> Option<(f64, f64)>;
-    /// k/ρh of a clamp that yields, in m³/s².
-    fn specific_clamp(&self) -> Option<f64>;
+/// D/ρh of the reference thickness, in m⁴/s².
+pub fn specific_rigidity(blade: &Blade) -> f64 {
+    blade.flexural_rigidity_n_m() / blade.mass_per_area_kg_per_m2()
+}
+
+/// Radius of the circle of the mass of teeth, and this mass per ρh and radian, in m².
+fn rim(blade: &Blade) -> Option<(f64, f64)> {
+    let per_radian = TAU * blade.mass_per_area_kg_per_m2();
+    blade
+        .rim
+        .map(|rim| (rim.radius_m, rim.mass_kg / per_radian))
 }
 
 /// Integrals over the angle on an element: of gg, g′g′, gg″ and g″g″.
@@ -130,13 +132,13 @@ pub struct Bending {
 
 impl Bending {
     /// The integrals on an element; `is_held` if it begins at a clamp.
-    pub fn new(ring: &impl Ring, [from, to]: [f64; 2], is_held: bool) -> Self {
+    pub fn new(blade: &Blade, [from, to]: [f64; 2], is_held: bool) -> Self {
         let mut sum = Bending::default();
-        let (l, nu) = (to - from, ring.poisson_ratio());
+        let (l, nu) = (to - from, blade.material.poisson_ratio);
         for (r, weight) in smooth(from, to, POINTS).iter() {
             let [f, d, dd] = hermite(r - from, l);
-            let thickness = ring.thickness_ratio(r);
-            let rigid = ring.specific_rigidity() * thickness.powi(3) * weight * r;
+            let thickness = blade.thickness_ratio(r);
+            let rigid = specific_rigidity(blade) * thickness.powi(3) * weight * r;
             let hoop = |p: usize| f[p] / (r * r);
             let slope = |p: usize| d[p] / r;
             let twist = |p: usize| slope(p) - hoop(p);
@@ -151,15 +153,15 @@ impl Bending {
                 }
             }
         }
-        if let Some((radius_m, mass)) = ring.rim()
+        if let Some((radius_m, mass)) = rim(blade)
             && radius_m > from + 1e-9 * l
             && radius_m < to + 1e-9 * l
         {
             let [f, ..] = hermite(radius_m - from, l);
             (0..4).for_each(|p| (0..4).for_each(|s| sum.mass[p][s] += mass * f[p] * f[s]));
         }
-        if let Some(clamp) = ring.specific_clamp().filter(|_| is_held) {
-            sum.even[1][1] += clamp * from;
+        if let Some(clamp) = blade.clamp_n_m_per_rad_per_m.filter(|_| is_held) {
+            sum.even[1][1] += clamp / blade.mass_per_area_kg_per_m2() * from;
         }
         sum
     }
@@ -209,13 +211,13 @@ pub struct InPlane {
 
 impl InPlane {
     /// The integrals on an element.
-    pub fn new(ring: &impl Ring, [from, to]: [f64; 2]) -> Self {
+    pub fn new(blade: &Blade, [from, to]: [f64; 2]) -> Self {
         let mut sum = InPlane::default();
-        let (l, nu) = (to - from, ring.poisson_ratio());
+        let (l, nu) = (to - from, blade.material.poisson_ratio);
         let shear = 0.5 * (1.0 - nu);
         for (r, weight) in smooth(from, to, POINTS).iter() {
             let [f, d, _] = lagrange(r - from, l);
-            let area = weight * r * ring.thickness_ratio(r);
+            let area = weight * r * blade.thickness_ratio(r);
             for p in 0..3 {
                 sum.load[p] += area * r * f[p];
                 for s in 0..3 {
@@ -230,7 +232,7 @@ impl InPlane {
                 }
             }
         }
-        if let Some((radius_m, mass)) = ring.rim()
+        if let Some((radius_m, mass)) = rim(blade)
             && radius_m > from + 1e-9 * l
             && radius_m < to + 1e-9 * l
         {

@@ -23,7 +23,6 @@ mod waves;
 use std::sync::{Arc, Mutex, PoisonError};
 
 use crate::model::scene::{Blade, Bore, InPlane, Slots};
-use elements::Ring;
 use mesh::Mesh;
 pub use stress::MeanStress;
 use symmetry::Held;
@@ -104,29 +103,5 @@ impl SlottedBlade {
     /// Number of nodal diameters from which on c_n is the same for all.
     pub fn even_from(&self) -> usize {
         self.waves.len()
-    }
-}
-
-impl Ring for Blade {
-    fn poisson_ratio(&self) -> f64 {
-        self.material.poisson_ratio
-    }
-
-    fn thickness_ratio(&self, radius_m: f64) -> f64 {
-        Blade::thickness_ratio(self, radius_m)
-    }
-
-    fn specific_rigidity(&self) -> f64 {
-        self.flexural_rigidity_n_m() / self.mass_per_area_kg_per_m2()
-    }
-
-    fn rim(&self) -> Option<(f64, f64)> {
-        let per_radian = std::f64::consts::TAU * self.mass_per_area_kg_per_m2();
-        self.rim.map(|rim| (rim.radius_m, rim.mass_kg / per_radian))
-    }
-
-    fn specific_clamp(&self) -> Option<f64> {
-        let clamp = self.clamp_n_m_per_rad_per_m?;
-        Some(clamp / self.mass_per_area_kg_per_m2())
     }
 }

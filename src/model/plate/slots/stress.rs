@@ -12,8 +12,9 @@ use faer::Mat;
 
 use super::super::quadrature::{Rule, smooth};
 use super::chain::{Chain, Place};
-use super::elements::{Around, InPlane, Ring, lagrange};
+use super::elements::{Around, InPlane, lagrange};
 use super::mesh::Mesh;
+use crate::model::scene::Blade;
 
 /// Points of the rule on an element, for products of polynomials with this stress.
 const POINTS: usize = 6;
@@ -30,7 +31,7 @@ pub struct MeanStress {
 
 impl MeanStress {
     /// The stress of a ring whose inner edge is fixed in its plane or free; not a number if the numbers differ too much in size.
-    pub fn new(ring: &impl Ring, mesh: &Mesh, is_fixed: bool) -> Self {
+    pub fn new(blade: &Blade, mesh: &Mesh, is_fixed: bool) -> Self {
         let (radii, angles) = (&mesh.radii_m, &mesh.angles_rad);
         let around: Vec<Around<3>> = angles
             .windows(2)
@@ -42,7 +43,7 @@ impl MeanStress {
         let mut matrix = Chain::zeros(&unknowns.orders);
         let mut load = Mat::zeros(matrix.order(), 1);
         for (i, pair) in radii.windows(2).enumerate() {
-            let element = InPlane::new(ring, [pair[0], pair[1]]);
+            let element = InPlane::new(blade, [pair[0], pair[1]]);
             for (j, around) in around.iter().enumerate() {
                 for one in functions() {
                     let Some(row) = unknowns.place(i, j, one) else {
@@ -80,7 +81,7 @@ impl MeanStress {
         MeanStress {
             radii_m: radii.clone(),
             displacement_m3: (0..circles).map(mean).collect(),
-            poisson_ratio: ring.poisson_ratio(),
+            poisson_ratio: blade.material.poisson_ratio,
         }
     }
 

@@ -10,10 +10,11 @@ use faer::linalg::triangular_solve::{
 use faer::{Mat, Par, Side};
 
 use super::chain::{Chain, Place};
-use super::elements::{Around, Bending, Ring, hermite};
+use super::elements::{Around, Bending, hermite, specific_rigidity};
 use super::mesh::Mesh;
 use super::symmetry::{Class, Held, OF_NODE, Part, Unknowns};
 use crate::model::linalg::SymmetricEigen;
+use crate::model::scene::Blade;
 
 /// Waves of a number of diameters and circles that the modes are composed of at first, and of how many diameters more than wanted.
 const CIRCLES: usize = 2;
@@ -55,20 +56,20 @@ pub struct Branch {
 
 impl<'a> Slotted<'a> {
     /// The elements of a ring with `count` slots.
-    pub fn new(ring: &impl Ring, mesh: &'a Mesh, count: u32, held: Held) -> Self {
+    pub fn new(blade: &Blade, mesh: &'a Mesh, count: u32, held: Held) -> Self {
         let edges = mesh.radii_m.windows(2).enumerate();
         Slotted {
             mesh,
             held,
             count: count as usize,
             rows: edges
-                .map(|(i, pair)| Bending::new(ring, [pair[0], pair[1]], i == 0))
+                .map(|(i, pair)| Bending::new(blade, [pair[0], pair[1]], i == 0))
                 .collect(),
             around: (mesh.angles_rad.windows(2))
                 .map(|pair| Around::new(pair[1] - pair[0], hermite))
                 .collect(),
             // The lowest wave that bends a free ring has 25 times as much, or more.
-            shift: ring.specific_rigidity() / mesh.radii_m[mesh.radii_m.len() - 1].powi(4),
+            shift: specific_rigidity(blade) / mesh.radii_m[mesh.radii_m.len() - 1].powi(4),
         }
     }
 
