@@ -130,6 +130,8 @@ impl Page {
             "--no-sandbox",
             "--disable-gpu",
             "--disable-quic",
+            // Without a graphics processor WebGL2 is computed; Chromium 137 and later do that only if asked.
+            "--enable-unsafe-swiftshader",
             "--no-first-run",
             "--disable-background-networking",
             "--disable-component-update",
