@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from dataclasses import dataclass
 from math import pi
 
@@ -59,6 +60,11 @@ def even_step(values: FloatArray) -> float | None:
     return step if step > 0.0 and deviation <= _UNEVEN * step else None
 
 
+def _bare(title: str) -> str:
+    """A name and a unit without the marks between them."""
+    return " ".join(re.split(r"[\s_/,()\[\]]+", title.lower())).strip()
+
+
 @dataclass(frozen=True)
 class Channel:
     """Samples with a name and a unit, which may be blank."""
@@ -66,6 +72,11 @@ class Channel:
     name: str
     unit: str
     samples: FloatArray
+
+    @property
+    def title(self) -> str:
+        """Name and unit."""
+        return f"{self.name} ({self.unit})" if self.unit not in ("", self.name) else self.name
 
     def is_speed(self) -> bool:
         """Whether it is a speed, by its unit or by its name."""
@@ -93,10 +104,13 @@ class Channels:
     channels: tuple[Channel, ...]
 
     def named(self, argument: str, key: str | int) -> Channel:
-        """A channel by its name, or by its number from 0."""
-        names = [channel.name for channel in self.channels]
-        if isinstance(key, str) and names.count(key) == 1:
-            return self.channels[names.index(key)]
+        """A channel by its name, with or without its unit, or by its number from 0."""
+        names = [channel.title for channel in self.channels]
+        if isinstance(key, str):
+            for same in (str, _bare):
+                found = [of for of in self.channels if same(key) in (same(of.name), same(of.title))]
+                if len(found) == 1:
+                    return found[0]
         if not isinstance(key, (str, bool)) and 0 <= key < len(names):
             return self.channels[key]
         allowed = ", ".join(f"{number} ({name})" for number, name in enumerate(names))
