@@ -142,7 +142,7 @@ pub struct Start {
 const HIGH_CORRELATION: f64 = 0.95;
 /// Usual error of a measured frequency, relative, and the multiple of it beyond which the fitted saw is not that of the
 /// measurement. A calibration of the paper's Table 5 leaves 4 %.
-const ERROR: f64 = 0.005;
+const ERROR: f64 = 0.01;
 const MISFIT: f64 = 10.0;
 
 impl FitReport {
