@@ -19,6 +19,7 @@ from ._channels import (
     ResponseFunction,
     even_step,
     factor,
+    has_no_gap,
     known_factor,
 )
 from ._entry import FloatArray
@@ -59,7 +60,11 @@ def of_columns(path: str | os.PathLike[str], columns: list[Channel], rate_hz: fl
         raise InputError(f"{path} has {len(times)} columns of time ({names}); keep one")
     if not times:
         return Channels(str(path), rate_hz, others)
-    time, rate = times[0], of_times(path, times[0].samples, times[0].unit or "s")
+    time = times[0]
+    seconds = known_factor(SECONDS, time.unit or "s", f"times of {path}") * time.samples
+    if even_step(seconds) is None and has_no_gap(seconds):
+        return Channels(str(path), None, others, seconds)
+    rate = of_times(path, time.samples, time.unit or "s")
     if not time.unit and rate < _LOWEST_RATE_HZ and time.rises_evenly():
         raise InputError(
             f"the times of {path} rise by {1.0 / rate:g}, and the column {time.name} has no unit; name "

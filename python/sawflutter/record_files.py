@@ -54,7 +54,7 @@ def read_record(
         its teeth with the missing ones. Each turn gives one speed.
     rate_hz : float, optional
         Sample rate of a table without a column of time, or a more exact one than that of rounded
-        times.
+        times. Uneven times without gaps, such as those of a phone, are interpolated at it.
     unit : str, optional
         Unit of the signal; by default that of the file.
     scale : float
@@ -94,9 +94,11 @@ def read_signal(
     given = [name for name, of in (("rpm", rpm), ("speed", speed), ("tacho", tacho)) if of is not None]
     if len(given) > 1:
         raise ArgumentError(f"{' and '.join(given)} are given, but the speed has one source; keep one")
+    rate_given = None if rate_hz is None else number("rate_hz", rate_hz)
+    found = found.evenly(rate_given)
     turning = _turning(found, given, speed, tacho)
     chosen, *others = _signals(found, signal, turning)
-    rate = found.rate(None if rate_hz is None else number("rate_hz", rate_hz))
+    rate = found.rate(rate_given)
     if rpm is not None:
         speeds: npt.ArrayLike = rpm
     elif turning is None:

@@ -30,6 +30,7 @@ def ran(program: str, out: Path, *arguments: object) -> subprocess.CompletedProc
         ("frf-magnitude-phase.csv", (), "(mm/N), 640 lines up to 319.5 Hz, 0 rpm", [100, 125, 150, 260]),
         ("record-x-value.csv", ("--rpm", "0"), "record of probe (mm), 600 samples at 500 Hz", [60]),
         ("record.lvm", ("--rpm", "0"), "(mm), 600 samples at 500 Hz", [60]),
+        ("record.lvm", ("--rpm", "0", "--signal", "0"), "(mm), 600 samples at 500 Hz", [60]),
     ],
 )
 def test_files_of_a_lab_are_read(
