@@ -2,17 +2,21 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+import re
+from dataclasses import dataclass, replace
 from math import pi
 
 import numpy as np
 
 from ._entry import ComplexArray, FloatArray
-from .errors import InputError, refused
+from ._extras import extra
+from .errors import ArgumentError, InputError, refused
 
 # Largest deviation of a value from even ones, as a share of a step: values of few digits deviate by
 # less, and a missing sample by at least half a step.
 _UNEVEN = 0.3
+# A step of uneven times that is longer than the median one by this factor is a gap, and a shorter one than its inverse a mistake.
+_GAP = 1.5
 # Fewer samples than these rise evenly by chance.
 _FEWEST = 8
 
@@ -59,6 +63,18 @@ def even_step(values: FloatArray) -> float | None:
     return step if step > 0.0 and deviation <= _UNEVEN * step else None
 
 
+def _bare(title: str) -> str:
+    """A name and a unit without the marks between them."""
+    return " ".join(re.split(r"[\s_/,()\[\]]+", title.lower())).strip()
+
+
+def has_no_gap(values: FloatArray) -> bool:
+    """Whether the steps of values are of one size, but not equal, as those of a sensor of a phone."""
+    steps = np.diff(values)
+    middle = float(np.median(steps)) if len(steps) >= _FEWEST else 0.0
+    return middle > 0.0 and bool((steps <= _GAP * middle).all() and (steps >= middle / _GAP).all())
+
+
 @dataclass(frozen=True)
 class Channel:
     """Samples with a name and a unit, which may be blank."""
@@ -66,6 +82,11 @@ class Channel:
     name: str
     unit: str
     samples: FloatArray
+
+    @property
+    def title(self) -> str:
+        """Name and unit."""
+        return f"{self.name} ({self.unit})" if self.unit not in ("", self.name) else self.name
 
     def is_speed(self) -> bool:
         """Whether it is a speed, by its unit or by its name."""
@@ -91,12 +112,35 @@ class Channels:
     file: str
     rate_hz: float | None
     channels: tuple[Channel, ...]
+    uneven_s: FloatArray | None = None
+    """Times that are not evenly spaced, but without a gap."""
+
+    def evenly(self, rate_hz: float | None) -> Channels:
+        """Channels of even times: those of uneven ones are interpolated by a cubic spline at a given rate."""
+        if self.uneven_s is None:
+            return self
+        steps, mean_hz = np.diff(self.uneven_s), (len(self.uneven_s) - 1) / float(np.ptp(self.uneven_s))
+        if rate_hz is None or not 0.0 < rate_hz <= mean_hz * (1.0 + _UNEVEN):
+            given = f"steps from {steps.min():g} to {steps.max():g} s, {mean_hz:.4g} samples per second"
+            remedy = f"give rate_hz={mean_hz:.3g}, at which its channels are interpolated, or write more digits of the time"
+            message = f"the times of {self.file} are not evenly spaced ({given}); {remedy}"
+            raise ArgumentError(message, "rate_hz", None if rate_hz is None else f"{rate_hz:g}", f"at most {mean_hz:g}", remedy)
+        with extra("records"):
+            from scipy.interpolate import CubicSpline
+        at = np.arange(self.uneven_s[0], self.uneven_s[-1], 1.0 / rate_hz)
+        channels = (replace(of, samples=np.asarray(CubicSpline(self.uneven_s, of.samples)(at))) for of in self.channels)
+        return Channels(self.file, rate_hz, tuple(channels))
 
     def named(self, argument: str, key: str | int) -> Channel:
-        """A channel by its name, or by its number from 0."""
-        names = [channel.name for channel in self.channels]
-        if isinstance(key, str) and names.count(key) == 1:
-            return self.channels[names.index(key)]
+        """A channel by its name, with or without its unit, or by its number from 0."""
+        names = [channel.title for channel in self.channels]
+        if isinstance(key, str):
+            for same in (str, _bare):
+                found = [of for of in self.channels if same(key) in (same(of.name), same(of.title))]
+                if len(found) == 1:
+                    return found[0]
+            # Options of the command line are texts.
+            key = int(key) if key.isdecimal() and key not in names else key
         if not isinstance(key, (str, bool)) and 0 <= key < len(names):
             return self.channels[key]
         allowed = ", ".join(f"{number} ({name})" for number, name in enumerate(names))

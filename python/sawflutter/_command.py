@@ -29,7 +29,8 @@ def answered(run: Callable[[dict[str, Any]], str]) -> int:
         return 1
     except OSError as error:
         # The library's own errors name the file in their text.
-        _write(f"{error if error.filename else error.strerror or error}\n")
+        said = error.strerror or error
+        _write(f"cannot read or write {error.filename}: {said}\n" if error.filename else f"{said}\n")
         return 1
     except KeyboardInterrupt:
         # The user who stopped it needs no message.
@@ -46,6 +47,8 @@ def in_options(error: ArgumentError, options: Sequence[str]) -> str:
         return "--" + name.replace("to_hz", "to_frequency").removesuffix("_hz").replace("_", "-")
 
     text = re.sub(rf"^({named})(?= must)", lambda of: option(of[1]), str(error))
+    text = re.sub(r"between\(([\d.]+), ([\d.]+)\)", r"--between \1..\2", text)
+    text = text.replace("between()", "--between")
     text = text.replace("rpm=(from, to)", "rpm=FROM..TO").replace("as speed or tacho", "as --speed or --tacho")
     return re.sub(rf"\b({named})=", lambda of: option(of[1]) + " ", text)
 

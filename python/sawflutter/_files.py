@@ -10,17 +10,19 @@ from typing import TypeVar
 
 import numpy as np
 
-from . import _tables, _universal
+from . import _instruments, _tables, _universal
 from ._channels import Channel, Channels, ResponseFunction
 from ._extras import extra
 from .errors import InputError
 
 T = TypeVar("T")
+_BINARY = {"tdms": _instruments.read_tdms, "mat": _instruments.read_mat}
+_TABLES = ("txt", "tsv", "dat", "lvm", "xlsx", "xlsm")
 
 
 def read(path: str | os.PathLike[str]) -> Channels:
     """The channels of a file."""
-    return _by_ending(path, {"wav": _wav, "csv": _tables.read, "uff": _universal.read})
+    return _by_ending(path, {"wav": _wav, "csv": _tables.read, "uff": _universal.read, **_BINARY})
 
 
 def read_responses(path: str | os.PathLike[str]) -> list[ResponseFunction]:
@@ -30,7 +32,8 @@ def read_responses(path: str | os.PathLike[str]) -> list[ResponseFunction]:
 
 def holds_response(path: str | os.PathLike[str]) -> bool:
     """Whether a file has a frequency response instead of channels over time."""
-    readers = {"wav": lambda _: False, "csv": _tables.holds_response, "uff": _universal.holds_response}
+    over_time: dict[str, Callable[[str | os.PathLike[str]], bool]] = dict.fromkeys(["wav", *_BINARY], lambda _: False)
+    readers = {**over_time, "csv": _tables.holds_response, "uff": _universal.holds_response}
     return _by_ending(path, readers)
 
 
@@ -38,7 +41,7 @@ def _by_ending(
     path: str | os.PathLike[str], readers: dict[str, Callable[[str | os.PathLike[str]], T]]
 ) -> T:
     ending = Path(path).suffix.lower().lstrip(".")
-    same = {"wave": "wav", "txt": "csv", "tsv": "csv", "dat": "csv", "lvm": "csv", "unv": "uff", "uf": "uff"}
+    same = {"wave": "wav", "unv": "uff", "uf": "uff"} | dict.fromkeys(_TABLES, "csv")
     kind = same.get(ending, ending)
     if kind not in readers:
         known = [name for name in [*readers, *same] if same.get(name, name) in readers]

@@ -8,9 +8,7 @@ is printed instead, with exit code 1 and without any file.
 
 from __future__ import annotations
 
-import csv
 import json
-import re
 import sys
 import time
 from pathlib import Path
@@ -31,7 +29,7 @@ _APART = 10.0
 def run(given: dict[str, Any]) -> str:
     """Samples the saws of the arguments, writes the files, and returns the text."""
     saw = Scene.from_json(json.dumps(given["scene"]))
-    rpm, hz = _peaks(given["peaks"])
+    rpm, hz = np.array(_native.peaks(given["peaks"])).reshape(-1, 2).T
     free = {path: (low, high) for path, low, high in given["free"]}
     options = {name: given[name] for name in ("orders", "margin", "steps")}
     try:
@@ -48,28 +46,6 @@ def run(given: dict[str, Any]) -> str:
     lines = [of for line in str(found).split("\n") for of in (wrapped(line, "    ") or [""])]
     # The margins of the lines are lost where they are wrapped.
     return "\n".join([*lines, "", f"Written to {out}: {', '.join(files)}", ""])
-
-
-def _peaks(path: str) -> tuple[list[float], list[float]]:
-    """Speed and frequency of each peak of a table: of frequencies one in a line, or several."""
-    speeds, found = list[float](), list[float]()
-    rows = csv.DictReader(_native.read_text(path, True).splitlines())
-    titles = rows.fieldnames or ()
-    names = [name for name in titles if re.fullmatch(r"frequency_hz|f\d+", name)]
-    if "rpm" not in titles or not names:
-        listed = ", ".join(titles) or "no line of titles"
-        raise InputError(f"{path} has {listed}, but must have the columns rpm and frequency_hz; name them so")
-    for row in rows:
-        for name in names:
-            if row[name]:
-                try:
-                    # A line that is too short has no speed.
-                    pair = float(row["rpm"] or ""), float(row[name])
-                except ValueError:
-                    raise InputError(f"line {rows.line_num} of {path} has no number in rpm or {name}; correct it") from None
-                speeds.append(pair[0])
-                found.append(pair[1])
-    return speeds, found
 
 
 def _saws(found: MeasuredMargin) -> str:

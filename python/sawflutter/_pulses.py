@@ -15,6 +15,11 @@ _BETWEEN, _RANGE = 0.04, 0.5
 # A distance of pulses that is shorter or longer than these multiples of the median, and differs from it
 # by more than some samples, has a pulse too many or too few.
 _SHORTEST, _LONGEST, _ROUNDED = 0.6, 1.6, 1.6
+# The distances around one with which it is compared; a long one is that of a missing tooth if most of the
+# long ones are equally many pulses apart.
+_AROUND, _MOST = 9, 0.6
+# Fewest samples from pulse to pulse: with fewer than two, pulses are lost, and those that are left look like slower ones.
+_FEWEST = 2.2
 
 
 def jumps(samples: FloatArray) -> bool:
@@ -40,10 +45,45 @@ def speed_of(samples: FloatArray, rate_hz: float, pulses_per_turn: int) -> Float
     before, after = samples[begun - 1], samples[begun]
     share = np.clip((middle - before) / np.where(after > before, after - before, 1.0), 0.0, 1.0)
     times = (begun - 1 + share) / rate_hz
-    _check_regular(times, pulses_per_turn, 1.0 / rate_hz)
-    turns = times[pulses_per_turn:] - times[:-pulses_per_turn]
-    middles = 0.5 * (times[pulses_per_turn:] + times[:-pulses_per_turn])
+    in_turn = _in_a_turn(np.diff(times), pulses_per_turn)
+    _check_regular(times, in_turn, 1.0 / rate_hz)
+    turns = times[in_turn:] - times[:-in_turn]
+    closest = turns.min() * rate_hz / in_turn
+    if closest < _FEWEST:
+        given = f"pulses {closest:.2g} samples apart, at {rate_hz:g} samples per second"
+        remedy = "record it at a higher rate, or with fewer marks, or give the speed as rpm"
+        raise refused("tacho", given, f"a channel with at least {_FEWEST:g} samples from pulse to pulse", remedy)
+    middles = 0.5 * (times[in_turn:] + times[:-in_turn])
     return np.asarray(np.interp(np.arange(len(samples)) / rate_hz, middles, 60.0 / turns))
+
+
+def _in_a_turn(between: FloatArray, pulses_per_turn: int) -> int:
+    """Number of pulses that come in a turn. A wheel with missing teeth has a long distance in every turn,
+    and is described by its pulses, or by its teeth and the missing ones."""
+    around = np.pad(between, _AROUND // 2, mode="reflect") if len(between) > _AROUND else between
+    if around is between:
+        return pulses_per_turn
+    usual = np.median(np.lib.stride_tricks.sliding_window_view(around, _AROUND), axis=1)
+    longer = between / usual
+    gaps = np.flatnonzero(longer > _LONGEST)
+    if len(gaps) == 1 and len(between) < 2 * pulses_per_turn:
+        allowed = "a channel with two turns or more, because one distance of pulses is long, as that of a missing tooth"
+        raise refused("tacho", f"{len(between) + 1} pulses", allowed, "record more turns, or give the speed as rpm")
+    if len(gaps) < 2:
+        return pulses_per_turn
+    apart = np.diff(gaps)
+    counts = np.bincount(apart)
+    pulses = int(counts.argmax())
+    if counts[pulses] < _MOST * len(apart):
+        return pulses_per_turn
+    teeth = pulses + round(float(np.median(longer[gaps]))) - 1
+    for size in (pulses, teeth):
+        # A wheel may have a gap several times in a turn.
+        if pulses_per_turn % size == 0:
+            return pulses_per_turn // size * pulses
+    given = f"one distance of {pulses} is {longer[gaps].mean():.2g} times as long as the others"
+    allowed = f"{pulses}, or {teeth} with the missing teeth, because {given} in every turn"
+    raise refused("pulses_per_turn", pulses_per_turn, allowed, f"give {teeth}, or the speed as rpm")
 
 
 def _check_regular(times: FloatArray, pulses_per_turn: int, step_s: float) -> None:
@@ -69,11 +109,6 @@ def _check_regular(times: FloatArray, pulses_per_turn: int, step_s: float) -> No
     given = f"{own[first]:.3g} s between pulses {other}"
     allowed = "pulses of which none is missing and none is added"
     remedy = "filter the pulses, or give the speed as rpm: pairs (time in s, rpm)"
-    if pulses_per_turn > 1:
-        remedy = (
-            f"give as pulses_per_turn those that come in every turn, {pulses_per_turn - 1} if one of "
-            f"{pulses_per_turn} is always missing; or {remedy}"
-        )
     raise refused("tacho", given, allowed, remedy)
 
 

@@ -21,6 +21,7 @@ import numpy as np
 from . import _files
 from ._command import answered, in_options, png, wrapped
 from ._measured import titled
+from ._trend import is_steady
 from .errors import ArgumentError, InputError
 from .peaks import Peaks
 from .plot.chart import Chart
@@ -29,12 +30,15 @@ from .records import Record
 from .results import CampbellResults
 from .scene import Scene
 from .spectra import Spectrum, read_frf
+from .waterfalls import WIDTH
 
 Row = tuple[float, list[float]]
 # Arguments that are options of the command line, too.
 _OPTIONS = ("rpm", "speed", "tacho", "pulses_per_turn", "signal", "rate_hz", "to_hz")
 # Largest number of frequencies of a tap in a row of a fit.
 _MOST_FREQUENCIES = 24
+# Width of a Gaussian window at half its height, in standard deviations.
+_HALF_WIDTH = 2.355
 # Largest number of peaks that the text lists.
 _LISTED = 12
 
@@ -66,6 +70,8 @@ def run(given: dict[str, Any]) -> str:
 
     found = [_read(path, given, saw, computed) for path in given["files"]]
     rows = [row for of in found for row in of.rows]
+    if all(of.peaks is None for of in found):
+        raise InputError("; ".join(f"{of.name}: {of.remark}" for of in found))
     out = Path(given["out"])
     names = _written(out, found, rows)
     return _text(found, rows, names, out, given["saw_file"])
@@ -79,15 +85,20 @@ def _read(
         if _files.holds_response(path):
             return _of_spectrum(_response(path, given["rpm"]), "frequency response", saw)
         options = {name: given[name] for name in _OPTIONS if name != "to_hz"}
-        record, signal = read_signal(path, **options)
+        record, signal, others = read_signal(path, **options)
+        if given.get("between"):
+            record = record.between(*given["between"])
     except ArgumentError as error:
         message = in_options(error, _OPTIONS)
         raise InputError(message if path in message else f"{path} was refused: {message}") from None
     words = _words(record, signal)
+    if others:
+        words += f"; --signal can also be {', '.join(others)}"
     if np.ptp(record.samples) == 0.0:
-        return _Read(record.name, words, None, None, [], "no spectrum: it does not change; name another --signal")
+        other = f": {' or '.join(others)}" if others else ", or give another file"
+        return _Read(record.name, words, None, None, [], f"no spectrum: {signal} does not change; name another --signal{other}")
     try:
-        if record._is_steady():
+        if is_steady(record.rpm):
             return _of_spectrum(record.spectrum(to_hz=given["to_hz"]), words, saw)
         waterfall = record.waterfall(to_hz=given["to_hz"])
     except ArgumentError as error:
@@ -95,7 +106,8 @@ def _read(
         return _Read(record.name, words, None, None, [], f"no spectrum: {in_options(error, _OPTIONS)}")
     peaks = waterfall.peaks()
     rows, remark = _rows(peaks, saw, None)
-    words += f"; {len(waterfall.rpm)} spectra, {waterfall.resolution_hz:.2g} Hz wide"
+    mean_s = _HALF_WIDTH * WIDTH / waterfall.resolution_hz
+    words += f"; {len(waterfall.rpm)} spectra, {waterfall.resolution_hz:.2g} Hz wide, each at the mean speed of {mean_s:.2g} s"
     return _Read(record.name, words, peaks, waterfall.chart(computed(), peaks), rows, remark)
 
 
@@ -116,8 +128,7 @@ def _of_spectrum(spectrum: Spectrum, words: str, saw: Scene | None) -> _Read:
 
 
 def _words(record: Record, signal: str) -> str:
-    first, last = record.rpm.min(), record.rpm.max()
-    speeds = f"{first:.0f} rpm" if record._is_steady() else f"{first:.0f} to {last:.0f} rpm"
+    speeds = f"{record.rpm.mean():.0f} rpm" if is_steady(record.rpm) else record._course().removeprefix("from ")
     unit = f" ({record.unit})" if record.unit else ""
     size = f"{len(record.samples)} samples at {record.rate_hz:g} Hz, {record.time_s[-1]:.4g} s"
     return f"record of {signal}{unit}, {size}, {speeds}"

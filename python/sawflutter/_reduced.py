@@ -57,9 +57,11 @@ class Reduced:
         nodes = [_nodes(self._degree(place)) for place in range(len(bounds))]
         points = np.stack(np.meshgrid(*nodes, indexing="ij"), axis=-1).reshape(-1, len(bounds))
         if len(points) > _MOST:
+            needs = ", ".join(f"{path} {len(of)}" for path, of in zip(self._paths, nodes))
             message = (
-                f"the bounds of free are too wide together: {len(points)} saws would be needed between them; "
-                "narrow them, those of angles and radii above all, or free fewer numbers"
+                f"the bounds of free are too wide together: they need {len(points)} saws between them, the product of "
+                f"{needs}, but at most {_MOST} are computed; narrow the bounds that need the most, to half of their width "
+                "first, or free fewer numbers"
             )
             raise ArgumentError(message, "free")
         found = np.empty((len(points), 5, _SIZE, _SIZE))

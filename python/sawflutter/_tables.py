@@ -9,7 +9,7 @@ from pathlib import Path
 
 import numpy as np
 
-from . import _native
+from . import _native, _spreadsheets as spreadsheets
 from ._channels import (
     HERTZ,
     RADIANS,
@@ -19,6 +19,7 @@ from ._channels import (
     ResponseFunction,
     even_step,
     factor,
+    has_no_gap,
     known_factor,
 )
 from ._entry import FloatArray
@@ -47,15 +48,23 @@ _PARTS, _POLAR = {"frequency", "real", "imaginary"}, {"frequency", "magnitude", 
 
 def read(path: str | os.PathLike[str]) -> Channels:
     """The channels of a table."""
-    columns = _columns(path)
+    return of_columns(path, _columns(path))
+
+
+def of_columns(path: str | os.PathLike[str], columns: list[Channel], rate_hz: float | None = None) -> Channels:
+    """The channels of columns, one of which may be the time, or of a rate that the file gives."""
     times = [column for column in columns if _is_time(column)]
     others = tuple(column for column in columns if not _is_time(column))
     if any(of.unit != times[0].unit or (of.samples != times[0].samples).any() for of in times):
-        names = ", ".join(column.name for column in times)
+        names = ", ".join(column.title for column in times)
         raise InputError(f"{path} has {len(times)} columns of time ({names}); keep one")
     if not times:
-        return Channels(str(path), None, others)
-    time, rate = times[0], of_times(path, times[0].samples, times[0].unit or "s")
+        return Channels(str(path), rate_hz, others)
+    time = times[0]
+    seconds = known_factor(SECONDS, time.unit or "s", f"times of {path}") * time.samples
+    if even_step(seconds) is None and has_no_gap(seconds):
+        return Channels(str(path), None, others, seconds)
+    rate = of_times(path, time.samples, time.unit or "s")
     if not time.unit and rate < _LOWEST_RATE_HZ and time.rises_evenly():
         raise InputError(
             f"the times of {path} rise by {1.0 / rate:g}, and the column {time.name} has no unit; name "
@@ -80,9 +89,9 @@ def of_times(path: str | os.PathLike[str], times: FloatArray, unit: str) -> floa
     if step is None:
         if len(seconds) < 2:
             raise InputError(f"{path} has fewer than two times; record more samples")
-        steps = np.diff(seconds)
+        steps = np.diff(times)
         raise InputError(
-            f"the times of {path} are not evenly spaced (steps from {steps.min():g} to {steps.max():g} s); "
+            f"the times of {path} are not evenly spaced (steps from {steps.min():g} to {steps.max():g} {unit}); "
             "resample it, or write more digits of the time"
         )
     return 1.0 / step
@@ -159,8 +168,9 @@ def _phase(path: str | os.PathLike[str], column: Channel | None) -> FloatArray |
 
 
 def _columns(path: str | os.PathLike[str]) -> list[Channel]:
-    """The columns of a table."""
-    return [Channel(name, unit, np.frombuffer(of, "<f8")) for name, unit, of in _native.columns(path)]
+    """The columns of a table, which may be that of a spreadsheet."""
+    text = spreadsheets.text(path) if Path(path).suffix.lower() in spreadsheets.ENDINGS else None
+    return [Channel(name, unit, np.frombuffer(of, "<f8")) for name, unit, of in _native.columns(path, text)]
 
 
 def _words(text: str) -> set[str]:

@@ -31,6 +31,8 @@ _TRIED = 7
 # Independent saws that suffice for an interval of 95 %, and the share of the bounds that an interval of a determined
 # number does not exceed. Equal probability has 0.95.
 _ENOUGH, _WIDE = 400, 0.8
+# Largest error of the interpolation, as a share of the deviation of the peaks: it would widen intervals by a tenth.
+_COARSE = 0.5
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -57,7 +59,8 @@ class MeasuredMargin(Drawn, Entry):
     next_share : share of the variance of the deciding speed that it would take away.
     independent : number of independent saws that the sampling is worth: all of its saws, divided by the
         steps after which a walker has forgotten where it was.
-    error_hz : largest error of the computed frequencies of the sampling.
+    error_hz : largest error of the computed frequencies of the sampling; it is said beside the deviation of
+        the peaks, and warned of from half of it on.
     speeds_hz : quantiles 2.5, 50 and 97.5 % of the frequencies, of the shape (3, speeds, frequencies).
     at_rpm : their speeds.
     """
@@ -149,7 +152,14 @@ class MeasuredMargin(Drawn, Entry):
             for path, low, high in zip(self.paths, *self.within)
             if high - low > _WIDE
         )
-        said.append(f"Frequencies of the sampling are within {self.error_hz:.2g} Hz of those of the full matrices.")
+        noise_hz = float(np.median(self.deviation_hz))
+        share = self.error_hz / noise_hz
+        if share > _COARSE:
+            said.append("Warning: the interpolation is as inexact as the peaks; narrow the bounds of radii and angles.")
+        said.append(
+            f"Frequencies of the sampling are within {self.error_hz:.2g} Hz of those of the full matrices, "
+            f"{100.0 * share:.2g} % of the deviation of the peaks."
+        )
         return said
 
     def __repr__(self) -> str:

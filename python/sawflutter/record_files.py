@@ -27,20 +27,21 @@ def read_record(
     unit: str | None = None,
     scale: Number = 1.0,
 ) -> Record:
-    """Reads a record of a saw from a WAV file, a table (CSV, LabVIEW), or a universal file with data
-    sets 58.
+    r"""Reads a record of a saw from a WAV file, a table (CSV, LabVIEW, a spreadsheet), a universal file
+    with data sets 58, or a file of LabVIEW (TDMS) or MATLAB.
 
     A table has one row for each sample, and names of its columns with units, such as ``time_s``,
-    ``probe [mm]``, ``rpm``. Separators and decimal mark are determined from it. WAV files are read by
-    SciPy.
+    ``probe [mm]``, ``rpm``. Separators and decimal mark are determined from it. Comments begin with #, % or
+    \*. SciPy reads WAV files and those of MATLAB up to version 7, npTDMS those of LabVIEW, and pandas
+    spreadsheets.
 
     Parameters
     ----------
     path : str or path
-        The file: .wav, .csv (.txt, .tsv, .dat, .lvm), .uff (.unv, .uf).
+        The file: .wav, .csv (.txt, .tsv, .dat, .lvm), .xlsx, .uff (.unv, .uf), .tdms, .mat.
     signal : str or int, optional
-        Name or number, from 0, of the channel of the probe or microphone; columns of time are not
-        counted. By default the first channel that is neither a speed nor pulses of a tachometer nor
+        Name, with or without unit, or number, from 0, of the channel of the probe or microphone;
+        columns of time are not counted. By default the first channel that is neither a speed nor pulses of a tachometer nor
         a number of the sample.
     rpm : float, (float, float) or array_like, optional
         The speed, as in :class:`Record`.
@@ -49,10 +50,11 @@ def read_record(
     tacho : str or int, optional
         Channel of the pulses of a tachometer.
     pulses_per_turn : int
-        Number of its pulses in one rotation.
+        Number of its pulses in one rotation; of a wheel with missing teeth, that of its pulses or of
+        its teeth with the missing ones. Each turn gives one speed.
     rate_hz : float, optional
         Sample rate of a table without a column of time, or a more exact one than that of rounded
-        times.
+        times. Uneven times without gaps, such as those of a phone, are interpolated at it.
     unit : str, optional
         Unit of the signal; by default that of the file.
     scale : float
@@ -64,7 +66,7 @@ def read_record(
     >>> import pathlib, tempfile
     >>> import sawflutter as sf
     >>> path = pathlib.Path(tempfile.mkdtemp()) / "probe.csv"
-    >>> _ = path.write_text("time_s;probe_mm;rpm\\n0,0;0,1;0\\n0,5;0,2;10\\n1,0;0,1;20\\n")
+    >>> _ = path.write_text("time_s;probe_mm;rpm\n0,0;0,1;0\n0,5;0,2;10\n1,0;0,1;20\n")
     >>> record = sf.read_record(path)
     >>> record.unit, record.rate_hz, record.rpm.tolist()
     ('mm', 2.0, [0.0, 10.0, 20.0])
@@ -86,22 +88,26 @@ def read_signal(
     rate_hz: Number | None,
     unit: str | None = None,
     scale: Number = 1.0,
-) -> tuple[Record, str]:
-    """The record of :func:`read_record`, and the name of its channel."""
+) -> tuple[Record, str, list[str]]:
+    """The record of :func:`read_record`, the name of its channel, and those of others that may be meant."""
     found = _files.read(path)
     given = [name for name, of in (("rpm", rpm), ("speed", speed), ("tacho", tacho)) if of is not None]
     if len(given) > 1:
         raise ArgumentError(f"{' and '.join(given)} are given, but the speed has one source; keep one")
+    rate_given = None if rate_hz is None else number("rate_hz", rate_hz)
+    found = found.evenly(rate_given)
     turning = _turning(found, given, speed, tacho)
-    chosen = _signal(found, signal, turning)
-    rate = found.rate(None if rate_hz is None else number("rate_hz", rate_hz))
+    chosen, *others = _signals(found, signal, turning)
+    rate = found.rate(rate_given)
     if rpm is not None:
         speeds: npt.ArrayLike = rpm
     elif turning is None:
-        pulses = [f", such as tacho={of.name!r}" for of in found.channels if jumps(of.samples)]
+        pulses = [f"tacho={of.name!r}" for of in found.channels if jumps(of.samples)]
+        titles = ", ".join(of.title for of in found.channels)
+        such = f", such as {' or '.join(pulses)}" if pulses else f" (it has {titles})"
         remedy = (
             "give rpm=0 for a tap test, rpm=(from, to) for a run-up at a constant rate, or a channel as "
-            f"speed or tacho{pulses[0] if pulses else ''}"
+            f"speed or tacho{such}"
         )
         unknown = "".join(f" in rpm ({of.name} is in {of.unit!r})" for of in found.channels if of.is_speed())
         raise refused("rpm", None, f"given, because {found.file} has no channel of a speed{unknown}", remedy)
@@ -111,7 +117,7 @@ def read_signal(
         speeds = speed_of(turning.samples, rate, pulses_per_turn)
     samples = number("scale", scale) * chosen.samples
     unit = chosen.unit if unit is None else unit
-    return Record(samples, rate, speeds, unit=unit, name=Path(path).name), chosen.name
+    return Record(samples, rate, speeds, unit=unit, name=Path(path).name), chosen.name, [of.title for of in others]
 
 
 def _turning(
@@ -126,7 +132,7 @@ def _turning(
     elif given or not speeds:
         return None
     elif len(speeds) > 1:
-        names = ", ".join(channel.name for channel in speeds)
+        names = ", ".join(channel.title for channel in speeds)
         raise ArgumentError(f"speed is missing, but {found.file} has several speeds ({names}); choose one")
     of = speeds[0]
     if of.to_rpm() is None:
@@ -139,17 +145,22 @@ def _turning(
     return of
 
 
-def _signal(found: Channels, signal: str | int | None, turning: Channel | None) -> Channel:
+def _signals(found: Channels, signal: str | int | None, turning: Channel | None) -> list[Channel]:
+    """The channel of the probe, and others that may be meant if none is named."""
     if signal is not None:
         of = found.named("signal", signal)
         if of.rises_evenly():
             remedy = "if it is the time, name it time_s in the line above the numbers"
             raise refused("signal", of.name, "a probe, but this channel rises evenly", remedy)
-        return of
-    for of in found.channels:
-        is_other = of is turning or of.is_speed()
-        if not (is_other or of.rises_evenly() or jumps(of.samples)):
-            return of
+        return [of]
+    signals = [
+        of for of in found.channels
+        if not (of is turning or of.is_speed() or of.rises_evenly() or jumps(of.samples))
+    ]  # fmt: skip
+    if signals:
+        return signals
+    titles = ", ".join(of.title for of in found.channels)
     raise InputError(
-        f"{found.file} has no channel beside time, speed and pulses; export the probe as well, or name it as signal"
+        f"{found.file} has no channel beside time, speed and pulses ({titles}); export the probe as well, or name it "
+        "as signal"
     )

@@ -8,14 +8,17 @@ import numpy as np
 import numpy.typing as npt
 
 from ._entry import Entry, FloatArray, array
+from ._trend import is_steady, trend
 from ._values import Number, number, optional
-from .errors import refused
+from .errors import ArgumentError, refused
 from .motions import RunUpResults
 from .spectra import Spectrum, after_tap
 from .waterfalls import Waterfall, sliding_spectra
 
 # Largest speed, as in scenes.
 _MOST_RPM = 1e6
+# Share of the largest speed by which the noise of a measured one may be below zero.
+_NOISE = 0.02
 
 
 @dataclass(frozen=True, eq=False, repr=False, init=False)
@@ -31,8 +34,9 @@ class Record(Entry):
         Sample rate.
     rpm : float, (float, float) or array_like
         Constant speed; first and last speed of a run-up at a constant rate; pairs (time in s,
-        speed), between which the speed is interpolated; or the speed at each sample. By default
-        the saw is at rest.
+        speed), between which the speed is interpolated; or the speed at each sample. A measured
+        speed may have noise: whether it rises, falls or is constant is judged by its means over
+        twentieths of the record. By default the saw is at rest.
     unit, name : str
         Unit of the samples and name of the record.
     """
@@ -93,7 +97,7 @@ class Record(Entry):
         self, *, resolution_hz: Number | None = None, to_hz: Number | None = None
     ) -> Waterfall:
         """Spectra of the record over the rotation speed, by a short-time Fourier transform with a
-        Gaussian window.
+        Gaussian window. The speed of a spectrum is the mean over its window.
 
         Parameters
         ----------
@@ -126,14 +130,15 @@ class Record(Entry):
         to_hz : float, optional
             As in :meth:`waterfall`.
         """
-        if not self._is_steady():
-            ends = f"{self.rpm.min():.0f} to {self.rpm.max():.0f} rpm"
-            raise refused("rpm", ends, "constant", "use waterfall(), or a part by between()")
+        if not is_steady(self.rpm):
+            message = f"rpm must be constant, but that of {self.name} goes {self._course()}; use waterfall(), or a part by between()"
+            raise ArgumentError(message, "rpm", self._course(), "constant", "use waterfall()")
         return after_tap(self, self._highest(to_hz))
 
-    def _is_steady(self) -> bool:
-        """Whether the speed is constant."""
-        return bool(np.ptp(self.rpm) <= max(5.0, 0.01 * self.rpm.mean()))
+    def _course(self) -> str:
+        """First and last speed, without the noise of a measured one."""
+        _, course = trend(self.rpm)
+        return f"from {course[0]:.0f} to {course[-1]:.0f} rpm"
 
     def _highest(self, to_hz: Number | None) -> float:
         highest = 0.4 * self.rate_hz
@@ -146,9 +151,8 @@ class Record(Entry):
         return asked
 
     def __repr__(self) -> str:
-        duration, first, last = self.time_s[-1], self.rpm[0], self.rpm[-1]
-        speeds = f"{first:.0f} rpm" if np.ptp(self.rpm) == 0.0 else f"{first:.0f} to {last:.0f} rpm"
-        return f"<Record {self.name!r}: {duration:.1f} s at {self.rate_hz:.0f} Hz, {speeds}>"
+        speeds = f"{self.rpm.mean():.0f} rpm" if is_steady(self.rpm) else self._course()
+        return f"<Record {self.name!r}: {self.time_s[-1]:.1f} s at {self.rate_hz:.0f} Hz, {speeds}>"
 
 
 def _speeds(rpm: npt.ArrayLike, size: int, rate_hz: float) -> FloatArray:
@@ -158,6 +162,8 @@ def _speeds(rpm: npt.ArrayLike, size: int, rate_hz: float) -> FloatArray:
     except (TypeError, ValueError):
         remedy = "a channel is named by speed or tacho"
         raise refused("rpm", rpm, "a number, or numbers", remedy) from None
+    if numbers.shape == (size,) and 0.0 > numbers.min() >= -_NOISE * numbers.max():
+        numbers = np.maximum(numbers, 0.0)
     speeds = numbers[..., 1:] if numbers.ndim == 2 else numbers
     if not (np.isfinite(numbers).all() and ((speeds >= 0.0) & (speeds <= _MOST_RPM)).all()):
         remedy = "give speeds in rpm without a sign, and pulses of a tachometer as tacho"

@@ -15,7 +15,7 @@ from ._drawn import Drawn
 from ._entry import ComplexArray, Entry, FloatArray, array
 from ._extras import extra
 from ._values import Number, optional
-from .errors import InputError, refused
+from .errors import ArgumentError, InputError, refused
 from .peaks import Peaks
 from .plot.chart import Chart
 from .plot.described import read
@@ -132,9 +132,11 @@ def after_tap(record: Record, to_hz: float) -> Spectrum:
     begin = int(np.abs(from_mean).argmax())
     decay = from_mean[begin:]
     if len(decay) < _FEWEST:
-        remedy = "give the time after the tap as well, or a part by between()"
+        given = f"largest at {begin / rate_hz:g} s of {record.time_s[-1]:g} s"
         allowed = f"followed by at least {_FEWEST} samples"
-        raise refused("samples", f"largest at {begin / rate_hz:g} s", allowed, remedy)
+        remedy = "give the time after the tap as well, or a part by between()"
+        message = f"the samples of {record.name} are {given}, but this must be {allowed}; {remedy}"
+        raise ArgumentError(message, "samples", given, allowed, remedy)
     window = _END ** np.linspace(0.0, 1.0, len(decay))
     size = next_fast_len(2 * len(decay), real=True)
     frequency_hz = np.fft.rfftfreq(size, 1.0 / rate_hz)

@@ -13,9 +13,10 @@ from . import _native
 from ._drawn import Drawn
 from ._entry import Entry, FloatArray, array
 from ._extras import extra
+from ._trend import longest_part, trend
 from ._values import Number, number
 from ._picking import lowest_hz
-from .errors import refused
+from .errors import ArgumentError, refused
 from .peaks import Peaks
 from .plot.chart import Chart
 from .plot.described import read
@@ -38,7 +39,7 @@ _LONGEST = 0.5
 @dataclass(frozen=True, eq=False, repr=False)
 class Waterfall(Drawn, Entry):
     """Spectra of a record over the rotation speed, ascending: each is that of a window, at the
-    speed in its middle. :meth:`Record.waterfall` makes one.
+    mean speed of the window. :meth:`Record.waterfall` makes one.
 
     Attributes
     ----------
@@ -135,9 +136,11 @@ def sliding_spectra(record: Record, resolution_hz: float | None, to_hz: float) -
         factor * np.abs(rfft(window * detrend(samples[at - half : at + half + 1]), size)[:kept])
         for at in middles
     ]
-    ascending = np.argsort(rpm[middles], kind="stable")
+    weights = window / window.sum()
+    speeds = np.array([weights @ rpm[at - half : at + half + 1] for at in middles])
+    ascending = np.argsort(speeds, kind="stable")
     return Waterfall(
-        array(rpm[middles][ascending]),
+        array(speeds[ascending]),
         array(frequency_hz[:kept]),
         array(np.array(spectra)[ascending]),
         WIDTH / deviation_s,
@@ -151,11 +154,17 @@ def _deviation_s(record: Record, resolution_hz: float | None) -> float:
     """Standard deviation of the window."""
     rpm = record.rpm
     duration_s = len(rpm) / record.rate_hz
-    rises, total = float(rpm[-1] - rpm[0]), float(np.abs(np.diff(rpm)).sum())
-    if np.ptp(rpm) < 1.0 or abs(rises) < 0.5 * total:
-        speeds = f"from {rpm[0]:.0f} to {rpm[-1]:.0f} rpm, between {rpm.min():.0f} and {rpm.max():.0f} rpm"
-        remedy = "take a part by between(), or, for a constant speed, spectrum()"
-        raise refused("rpm", speeds, "rising or falling throughout", remedy)
+    _, course = trend(rpm)
+    rises, total = float(course[-1] - course[0]), float(np.abs(np.diff(course)).sum())
+    if np.ptp(course) < 1.0:
+        message = f"rpm must be rising or falling throughout, but that of {record.name} is constant; use spectrum()"
+        raise ArgumentError(message, "rpm", f"{course[0]:.0f} rpm", "rising or falling throughout", "use spectrum()")
+    if abs(rises) < 0.5 * total:
+        begin, end = longest_part(rpm, duration_s)
+        given = f"from {course[0]:.0f} to {course[-1]:.0f} rpm, between {rpm.min():.0f} and {rpm.max():.0f} rpm"
+        remedy = f"take a part by between({begin:.3g}, {end:.3g})"
+        message = f"rpm must be rising or falling throughout, but that of {record.name} goes {given}; {remedy}"
+        raise ArgumentError(message, "rpm", given, "rising or falling throughout", remedy)
     longest_s = _LONGEST * duration_s / _DEVIATIONS
     if resolution_hz is None:
         # A wave of n diameters that rotates with the blade changes by n/60 Hz for each rpm. Its peak

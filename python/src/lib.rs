@@ -47,7 +47,9 @@ mod _native {
     #[pymodule_export]
     use super::values::{magnitude, number, plain};
     #[pymodule_export]
-    use super::{calls, columns, keys, panic, paper, program, read_scene, read_text, schema};
+    use super::{
+        calls, columns, keys, panic, paper, peaks, program, read_scene, read_text, schema,
+    };
 }
 
 /// The scene that comes with the program.
@@ -78,24 +80,17 @@ fn read_text(path: std::path::PathBuf, table: bool) -> PyResult<String> {
     Ok(read_path(&path, kind).map_err(|error| failure::file(class, error))?)
 }
 
-/// Columns of the table of an instrument: names, units, and numbers as little-endian doubles.
+/// Columns of the table of an instrument: names, units, and numbers as little-endian doubles. A text is that of a file of
+/// another format.
 #[pyfunction]
+#[pyo3(signature = (path, text = None))]
 fn columns<'py>(
     py: Python<'py>,
     path: std::path::PathBuf,
+    text: Option<String>,
 ) -> PyResult<Vec<(String, String, Bound<'py, PyBytes>)>> {
-    let kind = Kind {
-        limit: MAX_TABLE_BYTES,
-        other_encodings: OtherEncodings::AsLatin1,
-    };
-    let text = read_path(&path, kind).map_err(|error| failure::file("InputError", error))?;
-    let found = number_columns(&text).map_err(|error| match error {
-        FitError::Table { line, problem } => {
-            let said = format!("line {line} of {}: {problem}", path.display());
-            failure::Refusal::saying("InputError", said, None)
-        }
-        other => CommandError::from(other).into(),
-    })?;
+    let text = text.map_or_else(|| table(&path), Ok)?;
+    let found = number_columns(&text).map_err(|error| in_file(&path, error))?;
     let bytes = |numbers: &[f64]| {
         numbers
             .iter()
@@ -106,6 +101,33 @@ fn columns<'py>(
     Ok(found
         .map(|of| (of.name, of.unit, PyBytes::new(py, &bytes(&of.numbers))))
         .collect())
+}
+
+/// Speed and frequency of each peak of a table.
+#[pyfunction]
+fn peaks(path: std::path::PathBuf) -> PyResult<Vec<(f64, f64)>> {
+    let found = sawflutter::analyses::fit::peaks(&table(&path)?);
+    Ok(found.map_err(|error| in_file(&path, error))?)
+}
+
+/// The text of the table of an instrument, whatever its encoding.
+fn table(path: &std::path::Path) -> PyResult<String> {
+    let kind = Kind {
+        limit: MAX_TABLE_BYTES,
+        other_encodings: OtherEncodings::AsLatin1,
+    };
+    Ok(read_path(path, kind).map_err(|error| failure::file("InputError", error))?)
+}
+
+/// The error of a line of a file.
+fn in_file(path: &std::path::Path, error: FitError) -> Failure {
+    match error {
+        FitError::Table { line, problem } => {
+            let said = format!("line {line} of {}: {problem}", path.display());
+            failure::Refusal::saying("InputError", said, None)
+        }
+        other => CommandError::from(other).into(),
+    }
 }
 
 /// JSON schemas of scenes, studies and reports, as one JSON object.

@@ -14,7 +14,7 @@ import numpy.typing as npt
 import pytest
 
 import sawflutter as sf
-from sawflutter import _margin_command, _posterior, margins
+from sawflutter import _margin_command, _native, _posterior, margins
 from sawflutter._reduced import Reduced
 
 Array = npt.NDArray[np.float64]
@@ -145,17 +145,19 @@ def test_the_command_writes_saws_modes_and_a_figure(
     assert saws == pytest.approx(np.column_stack([found.numbers, found.deviation_hz, found.critical_rpm, found.flutter_rpm]))
     assert len((tmp_path / "peak-modes.csv").read_text().splitlines()) == 1 + len(found.mode)
     assert (tmp_path / "margin.png").read_bytes().startswith(b"\x89PNG")
-    assert _margin_command._peaks(str(table)) == ([100.0, 100.0], [7.5, 1.7])
-    table.write_text("rpm,f1,f2\n0,7.9,\n600,7.1,12.5\n")
-    assert _margin_command._peaks(str(table)) == ([0.0, 600.0, 600.0], [7.9, 7.1, 12.5])
+    # Tables of a spreadsheet are read, too.
+    for text in ("rpm,f1,f2\n0,7.9,\n600,7.1,12.5\n", "rpm;frequency_hz\n0;7,9\n600;7,1\n600;12,5\n"):
+        for encoding in ("utf-8", "utf-16"):
+            table.write_text(text, encoding=encoding)
+            assert _native.peaks(table) == [(0.0, 7.9), (600.0, 7.1), (600.0, 12.5)]
 
 
 @pytest.mark.parametrize(
     ("text", "options", "said"),
     [
-        ("speed;f\n1;2\n", (), "must have the columns rpm and frequency_hz"),
-        ("rpm,frequency_hz\n100,fast\n", (), "line 2 of .* has no number"),
-        ("frequency_hz,rpm\n7.5,100\n8.5\n", (), "line 3 of .* has no number"),
+        ("100;7,5\n200;7,6\n", (), "name the columns rpm and frequency_hz"),
+        ("rpm,frequency_hz\n100,fast\n", (), "line 2 of .*column 2 must be a number .*'fast'|\"fast\""),
+        ("frequency_hz,rpm\n7.5,100\n8.5\n", (), "line 3 of .*column 2 must be a number"),
         ("\0\x01rpm", (), "is not text"),
         ("rpm,frequency_hz\n100,7.5\n", (), "the peaks of .* must be more than 2"),
         ("rpm,frequency_hz\n100,7.5\n", ("--margin", "2"), "--margin must be above 0 and at most 1"),

@@ -234,8 +234,27 @@ def test_uneven_times_are_refused_with_their_own_steps(tmp_path: Path) -> None:
     time = np.cumsum(np.where(np.arange(50) < 25, 0.003, 0.002))
     path = tmp_path / "phone.csv"
     path.write_text(table("time_s;probe [mm]", [time, np.sin(300.0 * time)]))
-    with pytest.raises(sf.InputError, match=r"steps from 0\.002 to 0\.003 s"):
+    with pytest.raises(sf.InputError, match=r"steps from 0\.002 to 0\.003 s.*give rate_hz=402, at which"):
         sf.read_record(path, rpm=0.0)
+
+
+def test_uneven_times_of_a_phone_are_interpolated_at_a_given_rate(tmp_path: Path) -> None:
+    """The decay has 60 Hz, sampled at steps of 2 ms that differ by a tenth."""
+    steps = 2e-3 * (1.0 + 0.1 * np.random.default_rng(4).uniform(-1.0, 1.0, 2000))
+    time = np.cumsum(steps)
+    path = tmp_path / "phone.csv"
+    path.write_text(table("Time (s);probe [mm]", [time, np.exp(-time) * np.cos(2.0 * np.pi * 60.0 * time)]))
+    with pytest.raises(sf.InputError, match="not evenly spaced .*give rate_hz=") as refused:
+        sf.read_record(path, rpm=0.0)
+    cure = re.search(r"rate_hz=(\d+)", str(refused.value))
+    assert cure is not None
+    record = sf.read_record(path, rpm=0.0, rate_hz=float(cure[1]))
+    at = time[0] + record.time_s
+    inner = slice(5, -5)
+    assert np.abs(record.samples - np.exp(-at) * np.cos(2.0 * np.pi * 60.0 * at))[inner].max() < 0.02
+    assert np.abs(record.spectrum(to_hz=150).peaks().frequency_hz - 60.0).max() < 0.05
+    with pytest.raises(sf.InputError, match="not evenly spaced"):
+        sf.read_record(path, rpm=0.0, rate_hz=5000)
 
 
 def test_a_speed_of_few_digits_or_with_rests_is_a_speed(tmp_path: Path) -> None:

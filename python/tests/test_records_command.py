@@ -23,17 +23,14 @@ def ran(program: str, out: Path, *arguments: object) -> subprocess.CompletedProc
     )  # fmt: skip
 
 
-# The frequencies of the response are 100, 125, 150 and 260 Hz, that of the decays is 60 Hz; the speed of the pulses is
-# 615 to 789 rpm.
+# The frequencies of the response are 100, 125, 150 and 260 Hz, that of the decays is 60 Hz.
 @pytest.mark.parametrize(
     ("name", "options", "said", "peaks_hz"),
     [
         ("frf-magnitude-phase.csv", (), "(mm/N), 640 lines up to 319.5 Hz, 0 rpm", [100, 125, 150, 260]),
         ("record-x-value.csv", ("--rpm", "0"), "record of probe (mm), 600 samples at 500 Hz", [60]),
         ("record.lvm", ("--rpm", "0"), "(mm), 600 samples at 500 Hz", [60]),
-        ("key-phase.csv", ("--rate", "2kHz", "--tacho", "speed"), "615 to 789 rpm", []),
-        ("uff-padded.uff", ("--rpm", "0"), "25 samples at 100 Hz", []),
-        ("uff-ms-axis.uff", ("--rpm", "0"), "25 samples at 100 Hz, 0.24 s", []),
+        ("record.lvm", ("--rpm", "0", "--signal", "0"), "(mm), 600 samples at 500 Hz", [60]),
     ],
 )
 def test_files_of_a_lab_are_read(
@@ -79,6 +76,27 @@ def test_what_is_refused_leaves_no_file(
     assert not out.exists()
 
 
+@pytest.mark.parametrize(
+    ("name", "options", "said"),
+    [
+        ("uff-padded.uff", ("--rpm", "0"), "largest at 0.11 s of 0.24 s, but this must be followed by at least 16 samples"),
+        ("uff-ms-axis.uff", ("--rpm", "0"), "no spectrum: the samples of uff-ms-axis.uff"),
+        ("key-phase.csv", ("--rate", "2kHz", "--tacho", "speed"), "torque does not change; name another --signal: vibration_x"),
+    ],
+)
+def test_a_record_without_a_spectrum_leaves_no_file_alone(
+    programs: list[str], tmp_path: Path, name: str, options: tuple[str, ...], said: str
+) -> None:
+    out = tmp_path / "out"
+    done = ran(programs[0], out, FILES / name, *options)
+    assert done.returncode == 2 and not done.stdout and not out.exists()
+    assert re.search(said, done.stderr), done.stderr
+    if "--rpm" in options:
+        # Beside a file with a spectrum it is a remark.
+        done = ran(programs[0], out, FILES / "frf-magnitude-phase.csv", FILES / name, *options)
+        assert done.returncode == 0 and "no spectrum: " in done.stdout
+
+
 def test_peaks_of_a_run_up_become_rows_by_the_saw(
     programs: list[str], draft: sf.Scene, tmp_path: Path
 ) -> None:
@@ -108,3 +126,41 @@ def test_peaks_of_a_run_up_become_rows_by_the_saw(
     bare = ran(program, out, record)
     assert "give the saw by --saw" in " ".join(bare.stdout.split())
     assert not (out / "measured.csv").exists()
+
+
+def test_a_part_of_a_record_is_its_run_up(programs: list[str], tmp_path: Path) -> None:
+    """A speed that rises and falls is refused with the times of its run-up, which the option takes."""
+    time = np.arange(0.0, 12.0, 2e-3)
+    rpm = np.interp(time, [0.0, 6.0, 12.0], [300.0, 900.0, 300.0]) + np.random.default_rng(1).standard_normal(len(time))
+    path = tmp_path / "both.csv"
+    columns = np.column_stack([time, np.cos(2.0 * np.pi * 60.0 * time), rpm])
+    np.savetxt(path, columns, delimiter=",", header="time_s,probe [mm],rpm", comments="")
+    program, out = programs[0], tmp_path / "out"
+    refused = ran(program, out, path)
+    assert refused.returncode == 2 and not out.exists()
+    cure = re.search(r"--between (0\.\.[\d.]+)", refused.stderr)
+    assert cure is not None, refused.stderr
+    done = ran(program, out, path, "--between", cure[1])
+    assert done.returncode == 0, done.stderr
+    rows = np.genfromtxt(out / "peaks.csv", delimiter=",", skip_header=1, usecols=(1, 2))
+    assert abs(np.median(rows[:, 1]) - 60.0) < 0.1 and rows[-1, 0] > rows[0, 0] + 300.0
+
+
+def test_a_fit_that_misses_writes_no_scene(programs: list[str], draft: sf.Scene, tmp_path: Path) -> None:
+    """Frequencies ten times too high are those of no saw with this guide."""
+    saw = draft.replace({"cut": None, "measured": None})
+    known = np.array([mode.frequency_hz for mode in saw.modes(0)[:8]])
+    scene, out = tmp_path / "saw.json", tmp_path / "out"
+    scene.write_text(saw.to_json(), encoding="utf-8")
+    for factor, is_met in ((1.0, True), (10.0, False)):
+        table = tmp_path / "taps.csv"
+        hz = np.sort(factor * known)
+        table.write_text(f"rpm,{','.join(f'f{k}' for k in range(1, 9))}\n0,{','.join(f'{x:.3f}' for x in hz)}\n")
+        free = ("--free", "guides[0].stiffness_n_per_m=1e7..4e7", "--starts", "1", "--out", str(out))
+        done = subprocess.run(
+            [programs[0], "fit", str(scene), str(table), *free],
+            check=False, capture_output=True, text=True, encoding="utf-8", timeout=300,
+        )  # fmt: skip
+        assert done.returncode == 0, done.stderr
+        assert (out / "fitted-scene.json").exists() == is_met
+        assert ("no fitted scene is made of it" in " ".join(done.stdout.split())) != is_met

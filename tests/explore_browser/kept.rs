@@ -179,8 +179,13 @@ fn a_file_that_is_no_scene_leaves_the_scene_and_a_table_becomes_points() {
         // The table has the speed in its last column, a missing wave, and another order of columns: the page reads it
         // as `sawflutter fit` does.
         let named_table = "f2,f1,f3,rpm\n27.5,9.5,43,0\n,4.5,40,500\n";
+        // A spreadsheet saves "Unicode text" as UTF-16.
+        let bytes: Vec<u8> = format!("\u{feff}{named_table}")
+            .encode_utf16()
+            .flat_map(u16::to_le_bytes)
+            .collect();
         page.script(&format!(
-            "sawflutter.open(new File([{named_table:?}], 'shop.csv'))"
+            "sawflutter.open(new File([new Uint8Array({bytes:?})], 'shop.csv'))"
         ))
         .await;
         page.wait("sawflutter.state.scene.measured.source === 'shop.csv'")

@@ -1,16 +1,16 @@
 //! Columns of numbers from the tables of instruments, with names and units, and either decimal mark.
 
 use super::FitError;
+use super::cells::{Cells, Record, Separator, has_decimal_comma, number, wrong};
 use super::labview::Labview;
 use super::number_column::NumberColumn;
-use super::table::{Record, Separator, has_decimal_comma, number, wrong};
 use super::titles::Titles;
 
 /// Names of columns with remarks on some rows.
 const REMARKS: [&str; 3] = ["comment", "kommentar", "commentaire"];
 
 /// Reads a table of numbers. Names, and units below them, are optional, also in a comment directly above the numbers;
-/// other lines that begin with # are ignored, and so are blank columns and remarks. The header of a LabVIEW file gives
+/// other comments are ignored, and so are blank columns and remarks. The header of a LabVIEW file gives
 /// it units, and abscissas if it has none.
 ///
 /// # Errors
@@ -23,11 +23,15 @@ pub fn number_columns(text: &str) -> Result<Vec<NumberColumn>, FitError> {
     let separator = labview
         .as_ref()
         .map_or_else(|| Separator::of(body), |header| header.separator);
-    let mut records = separator.records(body)?;
-    records.iter_mut().for_each(|record| record.line += above);
-    let is_title = |record: &Record| record.cells.iter().all(|cell| number(cell).is_none());
-    let count = records.iter().take_while(|record| is_title(record)).count();
-    let rows = records.split_off(count);
+    let is_numbers = |record: &Record| record.cells.iter().any(|cell| number(cell).is_some());
+    let Cells {
+        above: mut records,
+        comment,
+        mut rows,
+        ..
+    } = Cells::of(body, separator, is_numbers)?;
+    let all = records.iter_mut().chain(&mut rows);
+    all.for_each(|record| record.line += above);
     let Some(first) = rows.first() else {
         let problem = "it has no line of numbers; give a table with one row for each sample";
         return Err(wrong(
@@ -35,10 +39,7 @@ pub fn number_columns(text: &str) -> Result<Vec<NumberColumn>, FitError> {
             problem.to_owned(),
         ));
     };
-    let leading = body
-        .lines()
-        .map_while(|line| line.trim_start().strip_prefix('#'));
-    let titles = Titles::of(records, leading.last(), first.cells.len(), separator)?;
+    let titles = Titles::of(records, comment.as_deref(), first.cells.len(), separator)?;
     has_decimal_comma(&rows, separator)?;
     let is_remark = |name: &str| REMARKS.contains(&name.to_lowercase().as_str());
     let width = first.cells.len().max(titles.names.len());

@@ -1,8 +1,8 @@
 //! Header of a LabVIEW measurement file (.lvm). Its fields are those of the columns at the same places.
 
 use super::FitError;
+use super::cells::{Separator, wrong};
 use super::number_column::NumberColumn;
-use super::table::{Separator, wrong};
 
 const BEGIN: &str = "LabVIEW Measurement";
 const END: &str = "***End_of_Header***";

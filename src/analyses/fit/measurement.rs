@@ -3,7 +3,8 @@
 use crate::model::scene::{Measured, MeasuredRow, quantity};
 
 use super::FitError;
-use super::table::{Table, TableRow, read, wrong};
+use super::cells::wrong;
+use super::table::{Others, Table, TableRow, read};
 
 /// Frequencies measured over speed.
 #[derive(Debug, Clone, PartialEq)]
@@ -40,7 +41,9 @@ const MAX_COLUMNS: usize = 24;
 /// End of the range of speeds for frequencies measured at rest only, because the choice of a basis needs a range.
 const LEAST_RPM: f64 = 100.0;
 /// Largest frequency in Hz, as in scenes.
-const MAX_HZ: f64 = quantity("measured.rows[].frequencies_hz[]").allowed.to;
+pub(super) const MAX_HZ: f64 = quantity("measured.rows[].frequencies_hz[]").allowed.to;
+/// Largest speed in rpm, as in scenes.
+pub(super) const MAX_RPM: f64 = quantity("measured.rows[].rpm").allowed.to;
 
 impl Row {
     /// Pairs the numbers of a row, in ascending order, with the columns that contain a number: the number of the k-th
@@ -110,8 +113,8 @@ impl Measurement {
     }
 
     /// Reads a table with a speed in rpm, followed by frequencies in Hz or blanks, separated by commas,
-    /// semicolons, tabs or spaces. A first line of names determines which column is the speed; lines that
-    /// begin with # are ignored.
+    /// semicolons, tabs or spaces. A line of names determines which column is the speed; comments, which begin with
+    /// #, % or *, are ignored.
     ///
     /// # Errors
     /// [`FitError::Table`] with line, column and description, and [`FitError::Empty`].
@@ -119,7 +122,7 @@ impl Measurement {
         let Table {
             rows: typed,
             diameters,
-        } = read(text)?;
+        } = read(text, Others::Refused)?;
         let rows: Vec<Row> = typed
             .iter()
             .map(|typed| row(typed, diameters.as_deref()))
@@ -205,18 +208,27 @@ impl Measurement {
     }
 }
 
-/// Reads a line of a table whose columns are ascending frequencies, or have the given numbers of nodal diameters.
-fn row(typed: &TableRow, diameters: Option<&[usize]>) -> Result<Row, FitError> {
-    let number = |(column, text): &(usize, String), most: f64, unit: &str| match text.parse::<f64>()
-    {
+/// The number of a cell, from 0 to the largest allowed one.
+pub(super) fn number(
+    line: u64,
+    (column, text): &(usize, String),
+    most: f64,
+    unit: &str,
+) -> Result<f64, FitError> {
+    match text.parse::<f64>() {
         Ok(value) if (0.0..=most).contains(&value) => Ok(value),
         _ => Err(wrong(
-            typed.line,
+            line,
             format!(
                 "column {column} must be a number between 0 and {most:e} (you gave {text:?}); give it in {unit}"
             ),
         )),
-    };
+    }
+}
+
+/// Reads a line of a table whose columns are ascending frequencies, or have the given numbers of nodal diameters.
+fn row(typed: &TableRow, diameters: Option<&[usize]>) -> Result<Row, FitError> {
+    let number = |cell: &(usize, String), most, unit| number(typed.line, cell, most, unit);
     let Some((speed, frequencies)) = typed.cells.split_first() else {
         let problem = "it has no speed; give it in rpm";
         return Err(wrong(typed.line, problem.into()));
@@ -228,7 +240,6 @@ fn row(typed: &TableRow, diameters: Option<&[usize]>) -> Result<Row, FitError> {
         );
         return Err(wrong(typed.line, problem));
     }
-    const MAX_RPM: f64 = quantity("measured.rows[].rpm").allowed.to;
     let rpm = number(speed, MAX_RPM, "revolutions per minute")?;
     let columns = frequencies
         .iter()

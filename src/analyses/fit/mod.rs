@@ -22,6 +22,7 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
+mod cells;
 pub(crate) mod chart;
 mod columns;
 mod comparison;
@@ -36,6 +37,7 @@ mod model;
 mod number_column;
 mod options;
 mod outline;
+mod peaks;
 mod report;
 mod request;
 mod starts;
@@ -50,6 +52,7 @@ use crate::model::scene::{
 };
 use crate::modes::SpectrumError;
 use crate::modes::branches::Progress;
+use crate::page::text::{Kind, OtherEncodings};
 use crate::stability::ChosenBasis;
 pub(crate) use outline::outline;
 
@@ -62,9 +65,16 @@ use minima::{EQUAL_HZ, equally_good};
 use model::Model;
 pub use number_column::NumberColumn;
 pub use options::Options;
+pub use peaks::peaks;
 pub use report::{Curves, FitReport, FittedParameter, Minimum, Residual, Start};
 pub use request::Request;
 use starts::{Searched, refined, search};
+
+/// Largest size and encodings of a table of frequencies, which usually has the length of a page.
+pub const TABLE_FILE: Kind = Kind {
+    limit: 1 << 20,
+    other_encodings: OtherEncodings::AsLatin1,
+};
 
 /// Shares at which the effect of a number is examined.
 const LOOKED_AT: [f64; 3] = [0.1, 0.37, 0.83];

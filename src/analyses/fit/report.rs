@@ -140,9 +140,10 @@ pub struct Start {
 
 /// Two numbers of higher correlation cannot be determined separately.
 const HIGH_CORRELATION: f64 = 0.95;
-/// Limit of the root mean square of the residuals, relative to that of the measured frequencies. A
-/// calibration of the paper's Table 5 leaves 4 %.
-const MISFIT: f64 = 0.2;
+/// Usual error of a measured frequency, relative, and the multiple of it beyond which the fitted saw is not that of the
+/// measurement. A calibration of the paper's Table 5 leaves 4 %.
+const ERROR: f64 = 0.01;
+const MISFIT: f64 = 10.0;
 
 impl FitReport {
     /// Remarks on the validity of a fit to these frequencies.
@@ -189,21 +190,32 @@ impl FitReport {
         ))
     }
 
+    /// Root mean square of the fitted frequencies, as measured.
+    fn measured_hz(&self) -> f64 {
+        let fitted = || self.residuals.iter().filter(|residual| residual.fitted);
+        let squares: f64 = fitted().map(|residual| residual.measured_hz.powi(2)).sum();
+        (squares / fitted().count().max(1) as f64).sqrt()
+    }
+
+    /// Whether the fitted saw has the measured frequencies, within several times the usual error of a measurement.
+    pub fn is_met(&self) -> bool {
+        self.rms_hz <= MISFIT * ERROR * self.measured_hz()
+    }
+
     /// Remark on a saw whose frequencies differ considerably from the measured ones.
     fn misfit(&self, used: &Measurement) -> Option<String> {
-        let frequencies = used.rows.iter().flat_map(|row| &row.pairs);
-        let squares: f64 = frequencies.map(|(_, hz)| hz * hz).sum();
-        let measured_hz = (squares / used.count() as f64).sqrt();
         let is_tap = |row: &Row| row.rpm == 0.0 && row.columns == Columns::Ranks;
         let taps = if used.rows.iter().any(is_tap) {
             " At rest a pair of equal frequencies counts once or twice, and a mode that was not seen needs a blank column; if its place is not known, name the columns by nodal diameters (n0, n1, …)"
         } else {
             ""
         };
-        (self.rms_hz > MISFIT * measured_hz).then(|| {
+        (!self.is_met()).then(|| {
             format!(
-                "the fitted saw does not have these frequencies: they differ by {:.3} Hz rms and are themselves {measured_hz:.3} Hz rms; are they in Hz, the speeds in rpm, and are blade and mount those of the measurement?{taps}",
-                self.rms_hz
+                "the fitted saw does not have these frequencies, and no fitted scene is made of it: they differ by {:.3} Hz rms, more than {MISFIT:.0} times {} % of {:.3} Hz, a usual error of measured frequencies; are they in Hz, the speeds in rpm, and are blade and mount those of the measurement?{taps}",
+                self.rms_hz,
+                100.0 * ERROR,
+                self.measured_hz()
             )
         })
     }

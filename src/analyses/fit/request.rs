@@ -67,7 +67,10 @@ impl CommandOptions for Request {
     }
 
     fn resulting_scene(report: &FitReport) -> Option<(&'static str, Option<&SceneFile>)> {
-        Some(("fitted-scene.json", Some(&report.scene)))
+        Some((
+            "fitted-scene.json",
+            report.is_met().then_some(&report.scene),
+        ))
     }
 }
 

@@ -1,7 +1,9 @@
-//! Reads tables of measured frequencies from spreadsheets and instruments. Separators, decimal commas and the
-//! order of the columns are determined from the table.
+//! Reads tables of measured frequencies. Separators, decimal commas and the order of the columns are determined from the
+//! table.
 
 use super::FitError;
+use super::cells::{Cells, Record, Separator, has_decimal_comma, number, wrong};
+use super::titles::Titles;
 use crate::model::scene::quantity;
 
 const MAX_DIAMETERS: f64 = quantity("measured.rows[].diameters[]").allowed.to;
@@ -22,21 +24,35 @@ pub struct Table {
     pub diameters: Option<Vec<usize>>,
 }
 
-/// The error of a line, numbered from 1.
-pub fn wrong(line: u64, problem: String) -> FitError {
-    FitError::Table { line, problem }
+/// Columns that are neither the speed nor a frequency.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Others {
+    /// They are refused, because each column is one of the lowest frequencies.
+    Refused,
+    /// They are left out, such as the amplitude of a peak; the speed and the frequencies need names.
+    LeftOut,
 }
 
-/// Reads a table. Blank lines and lines that begin with # are ignored.
+/// Reads a table. Blank lines and comments are ignored.
 ///
 /// # Errors
 /// [`FitError::Table`] with line and description.
-pub fn read(text: &str) -> Result<Table, FitError> {
-    let separator = Separator::of(text);
-    let mut records = separator.records(text)?;
-    let header = Header::take(&mut records)?;
-    let comma = has_decimal_comma(&records, separator)?;
-    let rows = records
+pub fn read(text: &str, others: Others) -> Result<Table, FitError> {
+    let named = |record: &Record| record.cells.iter().any(|name| is_speed(name));
+    let numbers = |record: &Record| record.cells.iter().any(|cell| number(cell).is_some());
+    let cells = Cells::of(text, Separator::of(text), |record| {
+        !named(record) && numbers(record)
+    })?;
+    let comma = has_decimal_comma(&cells.rows, cells.separator)?;
+    let Cells { rows, above, .. } = cells;
+    let header = Header::of(
+        above,
+        cells.comment.as_deref(),
+        &rows,
+        cells.separator,
+        others,
+    )?;
+    let rows = rows
         .into_iter()
         .map(|record| row(record, header.as_ref(), comma))
         .collect::<Result<_, _>>()?;
@@ -44,96 +60,6 @@ pub fn read(text: &str) -> Result<Table, FitError> {
         rows,
         diameters: header.and_then(|header| header.diameters),
     })
-}
-
-/// Separator between cells.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Separator {
-    Mark(u8),
-    Blanks,
-}
-
-pub(super) struct Record {
-    pub(super) line: u64,
-    pub(super) cells: Vec<String>,
-}
-
-impl Record {
-    fn new<'a>(line: u64, cells: impl Iterator<Item = &'a str>) -> Self {
-        let mut cells: Vec<String> = cells.map(|cell| cell.trim().to_owned()).collect();
-        while cells.last().is_some_and(String::is_empty) {
-            cells.pop();
-        }
-        Record { line, cells }
-    }
-}
-
-fn is_comment(line: &str) -> bool {
-    line.trim_start().starts_with('#')
-}
-
-impl Separator {
-    /// The first of semicolon, tab and comma that occurs outside quotation marks; blanks if none does. In a table with
-    /// semicolons or tabs a comma may be decimal, but not the other way round.
-    pub(super) fn of(text: &str) -> Self {
-        let mut quoted = false;
-        let mut seen = [false; 3];
-        for line in text.lines().filter(|line| !is_comment(line)) {
-            for character in line.chars() {
-                match character {
-                    '"' => quoted = !quoted,
-                    ';' if !quoted => seen[0] = true,
-                    '\t' if !quoted => seen[1] = true,
-                    ',' if !quoted => seen[2] = true,
-                    _ => (),
-                }
-            }
-        }
-        let marks = [b';', b'\t', b','];
-        let found = marks.into_iter().zip(seen).find(|(_, seen)| *seen);
-        found.map_or(Separator::Blanks, |(mark, _)| Separator::Mark(mark))
-    }
-
-    pub(super) fn records(self, text: &str) -> Result<Vec<Record>, FitError> {
-        let mut records = Vec::new();
-        match self {
-            Separator::Blanks => {
-                for (index, line) in text.lines().enumerate() {
-                    if !is_comment(line) {
-                        records.push(Record::new(index as u64 + 1, line.split_whitespace()));
-                    }
-                }
-            }
-            Separator::Mark(mark) => {
-                let mut reader = csv::ReaderBuilder::new()
-                    .has_headers(false)
-                    .flexible(true)
-                    .comment(Some(b'#'))
-                    .delimiter(mark)
-                    .from_reader(text.as_bytes());
-                for record in reader.records() {
-                    let record = record.map_err(|error| {
-                        let line = error.position().map_or(0, csv::Position::line);
-                        wrong(
-                            line,
-                            format!("it cannot be read ({error}); give rpm and frequencies in Hz"),
-                        )
-                    })?;
-                    let line = record.position().map_or(0, csv::Position::line);
-                    records.push(Record::new(line, record.iter()));
-                }
-            }
-        }
-        // Some spreadsheets write a first line such as "sep=;", which contains no data.
-        let is_hint = |cell: &String| cell.starts_with("sep=");
-        records.retain(|record| record.cells.first().is_some_and(|cell| !is_hint(cell)));
-        Ok(records)
-    }
-}
-
-/// The value of a number with a decimal point or a decimal comma; `None` for other text.
-pub(super) fn number(cell: &str) -> Option<f64> {
-    cell.replace(',', ".").parse().ok()
 }
 
 /// Number of names, column of the speed, and columns of the frequencies in their order.
@@ -146,49 +72,63 @@ struct Header {
 }
 
 impl Header {
-    /// Removes the first row if it contains names, and a row of units below it.
-    fn take(records: &mut Vec<Record>) -> Result<Option<Self>, FitError> {
-        let Some(first) = records.first() else {
-            return Ok(None);
-        };
-        let named = first.cells.iter().any(|name| is_speed(name));
-        let numbers = first.cells.iter().filter(|cell| number(cell).is_some());
-        if !named && numbers.count() > 0 {
-            return Ok(None);
+    /// The header of lines of text above the numbers, or of a comment directly above these.
+    fn of(
+        above: Vec<Record>,
+        comment: Option<&str>,
+        rows: &[Record],
+        separator: Separator,
+        others: Others,
+    ) -> Result<Option<Self>, FitError> {
+        let line = above.last().map_or(1, |record| record.line);
+        let has_names = !above.is_empty();
+        let widest = above.iter().map(|record| record.cells.len()).max();
+        let width = widest.or(rows.first().map(|row| row.cells.len()));
+        let titles = Titles::of(above, comment, width.unwrap_or(0), separator)?;
+        let names = titles.with_units();
+        let named = names.iter().any(|name| is_speed(name));
+        if named {
+            return Header::of_names(titles.line.unwrap_or(line), &names, others).map(Some);
         }
-        let Record { line, cells } = records.remove(0);
-        if !named {
-            return Err(wrong(
-                line,
-                format!(
-                    "it has neither numbers nor the names of columns, one of them rpm ({:?}); write \
-                     names like rpm, f1, f2, or correct the numbers",
-                    cells.join(", ")
-                ),
-            ));
-        }
-        let mut names = cells;
-        if records
-            .first()
-            .is_some_and(|record| record.cells.iter().all(|cell| is_unit(cell)))
-        {
-            for (name, unit) in names.iter_mut().zip(records.remove(0).cells) {
-                *name += &format!(" [{unit}]");
+        let problem = match others {
+            Others::Refused if !has_names => return Ok(None),
+            Others::Refused => format!(
+                "it has neither numbers nor the names of columns, one of them rpm ({:?}); write names like rpm, f1, f2, \
+                 or correct the numbers",
+                names.join(", ")
+            ),
+            Others::LeftOut => {
+                "it has no name of a column of the speed; name the columns rpm and frequency_hz, in a line above the \
+                 numbers".to_owned()
             }
-        }
-        Header::of_names(line, &names).map(Some)
+        };
+        Err(wrong(line, problem))
     }
 
-    fn of_names(line: u64, names: &[String]) -> Result<Self, FitError> {
+    fn of_names(line: u64, names: &[String], others: Others) -> Result<Self, FitError> {
         let speeds: Vec<usize> = (0..names.len()).filter(|k| is_speed(&names[*k])).collect();
         let [speed] = speeds[..] else {
+            let listed: Vec<&str> = speeds.iter().map(|k| names[*k].as_str()).collect();
             let problem = format!(
-                "{} of its columns are speeds; keep the one in rpm",
-                speeds.len()
+                "{} of its columns are speeds ({}); keep the one in rpm",
+                speeds.len(),
+                listed.join(", ")
             );
             return Err(wrong(line, problem));
         };
-        for (column, name) in names.iter().enumerate() {
+        let mut frequencies: Vec<usize> = (0..names.len()).filter(|k| *k != speed).collect();
+        if others == Others::LeftOut {
+            frequencies = named_frequencies(names, &frequencies);
+            if frequencies.is_empty() {
+                let problem = format!(
+                    "it has {}, but no frequency; name a column frequency_hz",
+                    names.join(", ")
+                );
+                return Err(wrong(line, problem));
+            }
+        }
+        let used = |column: usize| column == speed || frequencies.contains(&column);
+        for (column, name) in names.iter().enumerate().filter(|(column, _)| used(*column)) {
             let small = name.to_lowercase();
             let foreign = ["rad/s", "khz", "krpm", "1/s", "rps", "rev/s", "(ms)", "[s]"];
             let other = foreign.iter().any(|unit| small.contains(unit));
@@ -211,12 +151,14 @@ impl Header {
                 return Err(wrong(line, problem));
             }
         }
-        let mut frequencies: Vec<usize> = (0..names.len()).filter(|k| *k != speed).collect();
         let place = |column: &usize| last_number(&names[*column]);
         if frequencies.iter().all(|column| place(column).is_some()) {
             frequencies.sort_by_key(place);
         }
-        let diameters = diameters_of_all(line, names, &frequencies)?;
+        let diameters = match others {
+            Others::Refused => diameters_of_all(line, names, &frequencies)?,
+            Others::LeftOut => None,
+        };
         check_named_apart(line, names, &frequencies, diameters.as_deref())?;
         Ok(Header {
             names: names.len(),
@@ -224,6 +166,27 @@ impl Header {
             frequencies,
             diameters,
         })
+    }
+}
+
+/// Those of the columns that have the unit or the name of a frequency; without one, those with numbered names such as f1.
+fn named_frequencies(names: &[String], columns: &[usize]) -> Vec<usize> {
+    let small = |column: &usize| names[*column].to_lowercase();
+    let is_plain =
+        |name: String| name.contains("hz") || name.contains("freq") || name.contains("fréq");
+    let plain: Vec<usize> = columns
+        .iter()
+        .copied()
+        .filter(|k| is_plain(small(k)))
+        .collect();
+    if plain.is_empty() {
+        columns
+            .iter()
+            .copied()
+            .filter(|k| is_frequency(&small(k)))
+            .collect()
+    } else {
+        plain
     }
 }
 
@@ -322,66 +285,11 @@ fn nodal_diameters(name: &str) -> Option<usize> {
     number.trim().parse().ok()
 }
 
-/// Whether a cell contains only a unit.
-fn is_unit(cell: &str) -> bool {
-    let bare = cell.trim_matches(['[', ']', '(', ')']).to_lowercase();
-    let units = [
-        "", "rpm", "1/min", "min-1", "min^-1", "u/min", "r/min", "hz", "khz", "rad/s", "1/s",
-    ];
-    units.contains(&bare.as_str())
-}
-
 /// The number in a name, outside its unit: 3 of `f3 (Hz)`.
 fn last_number(name: &str) -> Option<u64> {
     let bare = name.split(['(', '[']).next().unwrap_or(name).trim_end();
     let digits = bare.len() - bare.trim_end_matches(|c: char| c.is_ascii_digit()).len();
     bare[bare.len() - digits..].parse().ok()
-}
-
-/// Whether commas in numbers are decimal. A table that contains both points and commas, or commas that may
-/// separate thousands, is refused.
-pub(super) fn has_decimal_comma(
-    records: &[Record],
-    separator: Separator,
-) -> Result<bool, FitError> {
-    let cells = records
-        .iter()
-        .flat_map(|record| record.cells.iter().map(|cell| (record.line, cell)));
-    let (mut comma, mut point, mut thousands) = (None, None, true);
-    for (line, cell) in cells.filter(|(_, cell)| cell.contains([',', '.'])) {
-        if cell.contains(',') && cell.contains('.') {
-            let problem =
-                format!("{cell:?} has both a comma and a point; write a decimal point alone");
-            return Err(wrong(line, problem));
-        }
-        if number(cell).is_none() {
-            continue;
-        }
-        if let Some((whole, decimals)) = cell.split_once(',') {
-            comma = comma.or(Some((line, cell)));
-            let whole = whole.trim_start_matches('-');
-            thousands &= decimals.len() == 3 && whole != "0" && whole.len() <= 3;
-        } else {
-            point = point.or(Some(cell));
-        }
-    }
-    match (comma, point) {
-        (Some((line, comma)), Some(point)) => Err(wrong(
-            line,
-            format!(
-                "{comma:?} has a comma, {point:?} a point; write a decimal point everywhere, and nothing between thousands"
-            ),
-        )),
-        (Some((line, comma)), None) if thousands && separator != Separator::Mark(b';') => {
-            Err(wrong(
-                line,
-                format!(
-                    "{comma:?} may have a decimal comma, or one between thousands; write a decimal point, and nothing between thousands"
-                ),
-            ))
-        }
-        _ => Ok(comma.is_some()),
-    }
 }
 
 fn row(record: Record, header: Option<&Header>, comma: bool) -> Result<TableRow, FitError> {

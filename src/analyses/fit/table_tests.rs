@@ -4,7 +4,7 @@ use super::*;
 
 /// Speed and frequencies of every row.
 fn numbers(text: &str) -> Vec<Vec<Option<f64>>> {
-    let table = read(text).unwrap_or_else(|error| panic!("{text:?}: {error}"));
+    let table = read(text, Others::Refused).unwrap_or_else(|error| panic!("{text:?}: {error}"));
     let row = |row: &TableRow| {
         let cells = row.cells.iter();
         cells.map(|(_, text)| text.parse().ok()).collect()
@@ -76,7 +76,7 @@ fn what_could_mean_two_things_is_refused_with_its_line() {
         ("rpm,n0,n301\n0,9,12\n", 1, "more than 300 nodal diameters"),
         ("1O00,9.2S\n2000,9\n", 0, ""),
     ] {
-        match (read(text), expected) {
+        match (read(text, Others::Refused), expected) {
             (Err(FitError::Table { line: at, problem }), _) if !expected.is_empty() => {
                 assert!(problem.contains(expected), "{text:?}: {problem}");
                 assert_eq!(at, line, "{text:?}");
@@ -90,7 +90,9 @@ fn what_could_mean_two_things_is_refused_with_its_line() {
 /// A row that contains a number is data: its other cells are typing mistakes.
 #[test]
 fn a_first_row_with_a_typing_mistake_is_no_header() {
-    let rows = read("O,7.68,9.5\n1000,7,9\n").unwrap().rows;
+    let rows = read("O,7.68,9.5\n1000,7,9\n", Others::Refused)
+        .unwrap()
+        .rows;
     assert_eq!(rows.len(), 2);
     assert_eq!(rows[0].cells[0], (1, "O".to_owned()));
 }

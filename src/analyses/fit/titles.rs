@@ -1,7 +1,7 @@
 //! Names and units above the columns of a table of an instrument.
 
 use super::FitError;
-use super::table::{Record, Separator, wrong};
+use super::cells::{Record, Separator, wrong};
 
 /// Units, alone or before a division or a power such as in `mm/N` and `m/s²`; longer ones in small letters.
 const UNITS: &str = "s sec second seconds sek sekunde sekunden seconde secondes ms msec millisecond milliseconds \
@@ -16,6 +16,8 @@ const ARGUMENTS: [&str; 4] = ["t", "f", "ω", "jω"];
 /// Names and units of columns; both are shorter than the table where it has none.
 #[derive(Default)]
 pub(super) struct Titles {
+    /// Line of the names; `None` without one, and for a comment.
+    pub(super) line: Option<u64>,
     pub(super) names: Vec<String>,
     units: Vec<String>,
 }
@@ -28,22 +30,19 @@ impl Titles {
         width: usize,
         separator: Separator,
     ) -> Result<Self, FitError> {
-        if let Some(first) = rows.first_mut().and_then(|row| row.cells.first_mut()) {
-            *first = first.trim_start_matches('%').trim().to_owned();
-            if first.is_empty() && separator == Separator::Blanks {
-                rows[0].cells.remove(0);
-            }
-        }
+        // Where semicolons separate the cells, a comment that begins with one is a short line with a blank first cell.
+        let is_remark = |row: &Record| {
+            row.cells[0].is_empty() && row.cells.len() < width && !is_row_of_units(row)
+        };
+        rows.retain(|row| !is_remark(row));
         let is_units = rows.len() > 1 && rows.last().is_some_and(is_row_of_units);
         let units = if is_units { rows.pop() } else { None };
         let units = units.map_or(Vec::new(), |row| row.cells);
         let Some(Record { line, cells: names }) = rows.pop() else {
-            let cells = comment.and_then(|text| separator.records(text).ok()?.pop());
-            let names = cells.map_or(Vec::new(), |row| row.cells);
-            return Ok(if names.len() == width {
-                Titles { names, units }
-            } else {
-                Titles::default()
+            return Ok(Titles {
+                line: None,
+                names: comment.map_or(Vec::new(), |text| of_comment(text, width, separator)),
+                units,
             });
         };
         // A row of one cell is the title of the whole table.
@@ -67,7 +66,27 @@ impl Titles {
                 ),
             ));
         }
-        Ok(Titles { names, units })
+        Ok(Titles {
+            line: Some(line),
+            names,
+            units,
+        })
+    }
+
+    /// Titles of all columns, with the units of the line below them.
+    pub(super) fn with_units(&self) -> Vec<String> {
+        let unit = |column| {
+            self.units
+                .get(column)
+                .map_or("", |cell: &String| bare(cell))
+        };
+        let names = self.names.iter().enumerate();
+        names
+            .map(|(column, name)| match unit(column) {
+                "" => name.clone(),
+                unit => format!("{name} [{unit}]"),
+            })
+            .collect()
     }
 
     /// Title of a column; "column 2" without one.
@@ -92,6 +111,16 @@ impl Titles {
             below => (name, below.to_owned()),
         }
     }
+}
+
+/// Names of a comment, if it has one for each column, with the separator of the numbers or another one.
+fn of_comment(text: &str, width: usize, separator: Separator) -> Vec<String> {
+    let others = [Separator::of(text), Separator::Blanks];
+    let mut found = std::iter::once(separator).chain(others).filter_map(|mark| {
+        let cells = mark.records(text).ok()?.pop()?.cells;
+        (cells.len() == width).then_some(cells)
+    });
+    found.next().unwrap_or_default()
 }
 
 fn bare(cell: &str) -> &str {

@@ -200,6 +200,11 @@ pub fn hertz(text: &str) -> Result<f64, String> {
     in_unit("Hz", text)
 }
 
+/// Parses a time.
+pub fn seconds(text: &str) -> Result<f64, String> {
+    in_unit("s", text)
+}
+
 /// Parses a share, as a number or in percent.
 pub fn share(text: &str) -> Result<f64, String> {
     in_unit("", text)

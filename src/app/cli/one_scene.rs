@@ -12,7 +12,6 @@ use crate::analyses::{
     check, cut, deflect, fit, gap, place, report, response, runup, size, washboard,
 };
 use crate::model::scene::RefusedValue;
-use crate::page::text::{Kind, OtherEncodings};
 use clap::{Arg, ArgAction, ArgMatches, Args, FromArgMatches};
 use serde_json::{Map, Value, json};
 
@@ -56,12 +55,6 @@ pub struct Given<C> {
 
 /// Heading of options that are numbers of the scene.
 const OF_SCENE: &str = "Numbers of the scene, lengths with their unit";
-
-/// Largest size and encodings of a table of frequencies, which usually has the length of a page.
-const TABLE: Kind = Kind {
-    limit: 1 << 20,
-    other_encodings: OtherEncodings::AsLatin1,
-};
 
 /// Arguments of a command that have a name on the command line.
 fn arguments<C: CommandOptions>() -> impl Iterator<Item = &'static Argument> {
@@ -242,7 +235,10 @@ fn with_table<C: CommandOptions>(
     {
         let path = Path::new(path);
         let name = path.file_name().unwrap_or(path.as_os_str());
-        let table = json!([name.to_string_lossy(), read_text(path, TABLE)?]);
+        let table = json!([
+            name.to_string_lossy(),
+            read_text(path, crate::analyses::fit::TABLE_FILE)?
+        ]);
         options.insert(argument.name.clone(), table);
     }
     Ok(options)

@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use clap::Args;
 use serde_json::{Value, json};
 
-use super::common::{Folder, count, hertz, read_scene, rpm, say};
+use super::common::{Folder, count, hertz, read_scene, rpm, say, seconds};
 use super::python::Need;
 
 pub const EXAMPLES: &str = "\
@@ -14,15 +14,18 @@ Examples:
   sawflutter records run-up.csv --saw my-saw.json
   sawflutter records run-up.wav --rpm 0..1400 --saw my-saw.json
   sawflutter records probe.csv --tacho trigger --rate 2kHz
+  sawflutter records up-and-down.csv --between 5..65
 
-Files: WAV, CSV (also .txt, .tsv, .dat), LabVIEW .lvm, universal files with data
-sets 58; records over time, or frequency responses. Columns and units are found
-by their names; what is not understood is refused.
+Files: WAV, CSV (also .txt, .tsv, .dat), LabVIEW .lvm and .tdms, MATLAB .mat,
+.xlsx, universal files with data sets 58; records over time, or frequency
+responses. Columns and units are found by their names; what is not understood is
+refused.
 peaks.csv has all frequencies that stand out, measured.csv the rows for
 sawflutter fit: the frequencies of a tap at rest, and with --saw those that are
 near a computed one. A figure for each file shows its spectra, with --saw under
 the computed branches.
-Records are read by the Python package: pip install \"sawflutter[records,plot]\".";
+Records are read by the Python package: pip install \"sawflutter[records,plot]\";
+those of .tdms and .xlsx need [instruments], too.";
 
 const NEED: Need = Need {
     of: "records",
@@ -49,12 +52,15 @@ pub struct Arguments {
     /// Column of the pulses of a tachometer
     #[arg(long, value_name = "NAME")]
     tacho: Option<String>,
-    /// Pulses in one rotation
+    /// Pulses in one rotation; of a wheel with missing teeth with or without these
     #[arg(long, value_name = "COUNT", default_value_t = 1, value_parser = count::<usize>)]
     pulses_per_turn: usize,
     /// Column of the probe or microphone [default: the first that is none of the others]
     #[arg(long, value_name = "NAME")]
     signal: Option<String>,
+    /// Part of a record over time: its run-up, or the time after one of several taps
+    #[arg(long, value_name = "S..S", value_parser = times)]
+    between: Option<Value>,
     /// Samples per second of a table without a column of time
     #[arg(long, value_name = "HZ", allow_hyphen_values = true, value_parser = hertz)]
     rate: Option<f64>,
@@ -73,6 +79,12 @@ fn speeds(text: &str) -> Result<Value, String> {
     })
 }
 
+/// Parses two times like `5..65`.
+fn times(text: &str) -> Result<Value, String> {
+    let (from, to) = text.split_once("..").ok_or("give two times, like 5..65")?;
+    Ok(json!([seconds(from)?, seconds(to)?]))
+}
+
 /// Reads the records, writes the files and prints the text.
 pub fn run(arguments: &Arguments) -> anyhow::Result<()> {
     let saw = arguments.saw.as_deref().map(read_scene).transpose()?;
@@ -86,6 +98,7 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<()> {
         "tacho": arguments.tacho,
         "pulses_per_turn": arguments.pulses_per_turn,
         "signal": arguments.signal,
+        "between": arguments.between,
         "rate_hz": arguments.rate,
         "to_hz": arguments.to_frequency,
         "out": folder.path(),

@@ -1,5 +1,7 @@
 //! Answers to the requests of the page, for a server or a worker of the browser.
 
+use std::path::Path;
+
 use serde::{Deserialize, Serialize};
 
 use super::charts::{Charts, Fidelity};
@@ -11,9 +13,10 @@ use super::reply::FileNote;
 use super::reply::{SavedFile, Start};
 use super::task::Task;
 use super::{mode, parts};
-use crate::analyses::fit::Measurement;
+use crate::analyses::fit::{Measurement, TABLE_FILE};
 use crate::model::scene::Scene;
 use crate::modes::Stage;
+use crate::page::text::read_stream;
 
 /// A request of the page.
 #[derive(Debug, Clone, Default, Deserialize)]
@@ -104,7 +107,8 @@ impl Answer {
 #[serde(deny_unknown_fields)]
 struct Table {
     name: String,
-    table: String,
+    /// The file, in any encoding of a table.
+    bytes: Vec<u8>,
 }
 
 /// A request for the numbers that the texts of a field mean.
@@ -221,7 +225,9 @@ fn last_line(asked: &Question, result: Result<String, Refusal>) -> Answer {
 
 /// Reads a table of measured frequencies as `sawflutter fit` does; returns the block of a scene.
 fn measured(body: &str) -> Result<crate::model::scene::Measured, Refusal> {
-    let Table { name, table } = serde_json::from_str(body).map_err(|error| Refusal::of(&error))?;
+    let Table { name, bytes } = serde_json::from_str(body).map_err(|error| Refusal::of(&error))?;
+    let table = read_stream(&bytes[..], Path::new(&name), TABLE_FILE)
+        .map_err(|error| Refusal::of(&error))?;
     let measurement = Measurement::from_csv(&name, &table).map_err(|error| Refusal::of(&error))?;
     Ok(measurement.as_scene_block())
 }

@@ -166,12 +166,12 @@ export class Files {
   // `handle`, the page can save to the file.
   async open(file, handle = null) {
     await this.#opening(file.name, async () => {
-      const text = await file.text();
       if (/\.(csv|tsv|txt)$/i.test(file.name)) {
-        const points = await measured(file.name, text);
+        const points = await measured(file.name, await file.arrayBuffer());
         this.state.change((scene) => (scene.measured = points), { structure: true });
         return;
       }
+      const text = await file.text();
       const scene = await read(text);
       if (this.#mayReplace(file.name)) this.#open(scene, { stem: file.name.replace(/\.[^.]*$/, ""), target: handle && this.#ofBrowser(handle, text) });
     });

@@ -76,8 +76,8 @@ export const read = (text) => json(post("read", text));
 export const part = (asked) => json(post("part", JSON.stringify(asked)));
 // The numbers that the texts of a field mean, in the unit of its key.
 export const numbers = (path, texts) => json(post("numbers", JSON.stringify({ path, texts })));
-// The `measured` block of a scene for a table of measured frequencies.
-export const measured = (name, table) => json(post("measured", JSON.stringify({ name, table })));
+// The `measured` block of a scene for a table of measured frequencies, whose encoding the program determines.
+export const measured = (name, buffer) => json(post("measured", JSON.stringify({ name, bytes: [...new Uint8Array(buffer)] })));
 // The influence of the scene's numbers on the speeds of a chart.
 export const influence = (shown, signal) => json(post("influence", JSON.stringify(shown), signal));
 // Saves the scene to the file that the program was started with.
