@@ -349,7 +349,7 @@ class Scene(Drawn, Mapping[str, Value]):
             "n_modes": None if n_modes is None else whole("n_modes", n_modes),
         }
         with reporting(progress, "speeds") as told:
-            found = json.loads(_native.run("modes", self._text, options, told)[0])
+            found = json.loads(_run("modes", self._text, options, told)[0])
         warned(_native.unusual_numbers(self._text))
         return Modes._of(speeds, found)
 
@@ -898,7 +898,7 @@ class Scene(Drawn, Mapping[str, Value]):
         as in :meth:`run_campbell`.
         """
         with reporting(progress, "settings") as told:
-            text, _ = _native.run("tradeoff", self._text, {}, told)
+            text, _ = _run("tradeoff", self._text, {}, told)
         warned(_native.unusual_numbers(self._text))
         return TradeoffResults(text, self.name)
 
@@ -963,7 +963,7 @@ class Scene(Drawn, Mapping[str, Value]):
         with reporting(progress, "saws") as told:
             for done, value in enumerate(stiffness.tolist(), start=1):
                 saw = saw.replace({f"guides[{at}].stiffness_n_per_m": value for at in chosen})
-                reports.append(CampbellResults._from_json(_native.run("analyze", saw._text, plain)[0]))
+                reports.append(CampbellResults._from_json(_run("analyze", saw._text, plain, None)[0]))
                 if told is not None:
                     told(done, len(stiffness), "")
         warned(text for report in reports for text in report._warnings())
@@ -976,7 +976,7 @@ class Scene(Drawn, Mapping[str, Value]):
         """The library's report of this scene at another accuracy, with its warnings."""
         scene = self.with_accuracy(accuracy, tolerance)
         with reporting(progress, kind._steps) as told:
-            report, assumed = _native.run(kind._command, scene._text, options, told)
+            report, assumed = _run(kind._command, scene._text, options, told)
         result = kind._from_json(report)
         warned([*([] if assumed is None else [assumed]), *result._warnings()])
         return result
@@ -1029,6 +1029,16 @@ def rows_in_html(title: str, rows: Iterable[tuple[str, object]]) -> str:
     """A table of names and values, for a notebook."""
     cells = "".join(f"<tr><td>{escape(name)}</td><td>{escape(str(value))}</td></tr>" for name, value in rows)
     return f"<p><b>{escape(title)}</b></p><table>{cells}</table>"
+
+
+def _run(command: str, scene: str, options: dict[str, Any], told: Any) -> tuple[str, str | None]:
+    """The report of a command. Where it is refused the unusual numbers of the scene are named first,
+    because one of them may be the reason; a report has them among its warnings."""
+    try:
+        return _native.run(command, scene, options, told)
+    except Exception:
+        warned(_native.unusual_numbers(scene))
+        raise
 
 
 def _scene(name: str, value: object) -> Scene:

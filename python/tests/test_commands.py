@@ -47,6 +47,13 @@ def test_a_number_in_another_unit_fails_a_check_unless_it_is_accepted(draft: sf.
     assert accepted.passed and accepted.failures == ()
 
 
+def test_a_refused_computation_names_unusual_numbers(draft: sf.Scene) -> None:
+    saw = draft.replace({"operating_rpm": 1.25})
+    named = pytest.warns(sf.ModelWarning, match="operating_rpm is 1.25")
+    with named, pytest.raises(sf.ArgumentError, match="to_rpm"):
+        saw.run_deflect(to_rpm=-1)
+
+
 def test_a_sized_number_is_where_a_check_passes(draft: sf.Scene) -> None:
     saw = draft.replace({"operating_rpm": 1300, "sweep": None})
     found = saw.size({"blade.thickness_m": ("2 mm", "3.2 mm")}, points=5)

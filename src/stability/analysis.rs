@@ -20,12 +20,12 @@ use super::onsets::Onsets;
 use super::options::AnalysisOptions;
 use super::room::check_room;
 use super::search_result::StabilityChart;
+use super::shortened::Shortened;
 use super::undamped::Depth;
 use super::undamped::RootLoci;
 use super::verdict::{Evidence, StabilityState, Verdict, flutter_onsets};
 use crate::model::plate::{LightGapError, Resolution, StraightEdgeReading};
-use crate::model::scene::{Accuracy, Scene, SceneError, SpeedRange, rad_per_s, rpm};
-use crate::modes::branches::CampbellError;
+use crate::model::scene::{Accuracy, Scene, SceneError, SpeedRange, rpm};
 use crate::modes::{DescribedMode, SpectralModel, SpectrumError, Strategy};
 
 /// Number of even speeds in the chart of a free blade, whose modes take little time.
@@ -100,15 +100,6 @@ pub struct Analysis {
     pub shortened: Option<Shortened>,
 }
 
-/// Limit at which a sweep that the program chooses ends.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Shortened {
-    /// Memory for the modes of the chart.
-    Memory,
-    /// Processor time of the search for bands.
-    Time,
-}
-
 /// The light gap of a scene with a straight edge.
 fn straight_edge(scene: &Scene) -> Result<Option<StraightEdgeReading>, AnalysisError> {
     let membrane = scene.membrane();
@@ -143,19 +134,14 @@ impl Analysis {
     ) -> Result<Self, AnalysisError> {
         let chosen = ChosenBasis::at_least(scene, scene.tolerance(), options.least_size)?;
         let least = chosen.saw.plate.resolution;
-        let (shortened, end_rad_per_s) = match Self::on_basis(scene, chosen, options) {
-            // If the scene gives no end of the sweep, the program chooses one up to which it can compute the
-            // diagram.
-            Err(AnalysisError::Campbell(CampbellError::TooLarge {
-                largest_end_rpm: Some(end),
-                ..
-            })) if scene.sweep().is_none() => (Shortened::Memory, rad_per_s(end)),
-            Err(AnalysisError::TooLong { limit_rpm, .. }) if scene.sweep().is_none() => {
-                (Shortened::Time, rad_per_s(limit_rpm))
-            }
+        let refused = match Self::on_basis(scene, chosen, options) {
+            Err(error) => error,
             analysed => return analysed,
         };
-        let shorter = scene.swept(SpeedRange::new(0.0, end_rad_per_s))?;
+        let Some((shortened, end_rpm)) = Shortened::after(&refused, scene) else {
+            return Err(refused);
+        };
+        let shorter = scene.swept(SpeedRange::between_rpm(0.0, end_rpm))?;
         let chosen = ChosenBasis::at_least(&shorter, scene.tolerance(), least)?;
         let analysis = Self::on_basis(scene, chosen, options)?;
         Ok(Analysis {

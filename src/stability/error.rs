@@ -32,7 +32,7 @@ pub enum AnalysisError {
     },
     /// The blade would yield long before the end of the sweep.
     #[error(
-        "{key} must be at most {limit_rpm:.0} (you gave {}): beyond that the rim would be stretched by more than 10 %, which exceeds the elastic limit of any blade; give a lower speed, or check diameter, modulus and density", shown(*.to_rpm)
+        "{key} must be at most {limit_rpm:.0} (you gave {}): {TORN}", shown(*.to_rpm)
     )]
     Overstretched {
         /// Key or argument that requires a speed.
@@ -84,6 +84,8 @@ pub enum AnalysisError {
     },
 }
 
+/// Reason for which a speed is refused that stretches the rim too far, and the remedy.
+pub(super) const TORN: &str = "beyond that the rim would be stretched by more than 10 %, which exceeds the elastic limit of any blade; give a lower speed, or check diameter, modulus and density";
 /// Key of the end of a sweep.
 pub(super) const END_OF_SWEEP: &str = "sweep.to_rpm";
 

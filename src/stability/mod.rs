@@ -44,13 +44,14 @@ mod root;
 mod sample;
 mod search_result;
 mod sensitivity;
+mod shortened;
 #[cfg(test)]
 mod tuned_tests;
 mod undamped;
 mod undecided;
 mod verdict;
 
-pub use analysis::{Analysis, Shortened};
+pub use analysis::Analysis;
 pub(crate) use band::CurvePoint;
 pub use band::{BandEnd, Instability};
 pub use basis::ChosenBasis;
@@ -77,10 +78,13 @@ pub use onsets::Onsets;
 #[doc(hidden)]
 pub use onsets::search_bands;
 pub use options::{AnalysisOptions, Interim};
-pub(crate) use reach::{CHARTED, PAST_THE_RANGE, is_cut_short, usual_end};
+pub(crate) use reach::{
+    CHARTED, PAST_THE_RANGE, check_speed, check_stretch, is_cut_short, usual_end,
+};
 pub(crate) use root::{Look, bracketed};
 pub use search_result::{FoundBands, StabilityChart};
 pub use sensitivity::{Sensitivity, SensitivityError};
+pub use shortened::Shortened;
 pub(crate) use undamped::Depth;
 #[doc(hidden)]
 pub use undamped::undamped_bands;

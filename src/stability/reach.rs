@@ -5,10 +5,10 @@
 //! tell how many diameters there are. Guides only raise critical speeds; other loads (cutting forces) may lower them,
 //! and then the first critical speed tells by how much.
 
-use super::error::{AnalysisError, END_OF_SWEEP};
+use super::error::{AnalysisError, END_OF_SWEEP, TORN};
 use super::ladder::{DENSE_LADDER, LADDER, resolution};
 use crate::model::plate::{MOST_DIAMETERS, MOST_UNKNOWNS, Plate, Resolution};
-use crate::model::scene::{Blade, Material, Scene, SpeedRange, rad_per_s, rpm};
+use crate::model::scene::{Blade, Material, RefusedValue, Scene, SpeedRange, rad_per_s, rpm};
 use crate::modes::{
     ABOVE_LAST, Assembled, NamedCriticalSpeed, RestingMode, SpectrumError, StandingWaves,
     diameters_within, highest_reflected,
@@ -215,11 +215,25 @@ fn fastest_rad_per_s(blade: &Blade) -> f64 {
     (LARGEST_STRETCH * youngs_modulus_pa / density_kg_per_m3).sqrt() / blade.outer_radius_m
 }
 
+/// Refuses a speed above [`fastest_rad_per_s`], the value of a key or an argument.
+///
+/// # Errors
+/// [`RefusedValue`].
+pub(crate) fn check_speed(blade: &Blade, key: &str, given_rpm: f64) -> Result<(), RefusedValue> {
+    let fastest_rpm = rpm(fastest_rad_per_s(blade));
+    if given_rpm <= fastest_rpm {
+        Ok(())
+    } else {
+        let allowed = format!("at most {fastest_rpm:.0}");
+        Err(RefusedValue::new(key, given_rpm, allowed, TORN))
+    }
+}
+
 /// Refuses a sweep that ends above [`fastest_rad_per_s`].
 ///
 /// # Errors
 /// [`AnalysisError::Overstretched`].
-fn check_stretch(blade: &Blade, to_rad_per_s: f64) -> Result<(), AnalysisError> {
+pub(crate) fn check_stretch(blade: &Blade, to_rad_per_s: f64) -> Result<(), AnalysisError> {
     let fastest = fastest_rad_per_s(blade);
     if to_rad_per_s > fastest {
         Err(AnalysisError::Overstretched {

@@ -35,7 +35,7 @@ use crate::modes::SpectrumError;
 use crate::motion::stretched_blade::StretchedError;
 use crate::motion::stretched_blade::{Rise, saturations};
 use crate::motion::transient::lateral_load;
-use crate::stability::{Analysis, AnalysisError};
+use crate::stability::{Analysis, AnalysisError, check_stretch};
 pub(crate) use outline::outline;
 
 use criteria::{of_gaps, without_stiffness};
@@ -152,6 +152,7 @@ fn analysed(scene: &Scene, limits: &Limits) -> Result<Analysis, CheckError> {
         factor,
         end_rad_per_s: least_end_rad_per_s,
     } = limits.reach();
+    check_stretch(scene.blade(), least_end_rad_per_s).map_err(|error| error.due_to(key, factor))?;
     let to = |end_rad_per_s: f64| {
         let range = SpeedRange::new(0.0, end_rad_per_s.max(least_end_rad_per_s));
         let analysis = Analysis::new(&scene.swept(range)?);

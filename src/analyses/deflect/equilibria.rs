@@ -13,7 +13,7 @@ use crate::motion::stretched_blade::{
     StretchedError, Sweep,
 };
 use crate::page::text::shown_to;
-use crate::stability::Analysis;
+use crate::stability::{Analysis, check_speed};
 
 /// Initial number of modes at rest, in addition to the shapes that diverge and the response to the force.
 /// With 24 the deflection of the paper's saw changes by less than 1 % if more are added.
@@ -52,7 +52,10 @@ impl Equilibria {
     pub fn new(scene: &Scene, options: &Options, force: &SideForce) -> Result<Self, DeflectError> {
         let swept = match options.to_rpm {
             None => scene.clone(),
-            Some(to_rpm) => scene.swept(SpeedRange::between_rpm(0.0, to_rpm))?,
+            Some(to_rpm) => {
+                check_speed(scene.blade(), "to_rpm", to_rpm)?;
+                scene.swept(SpeedRange::between_rpm(0.0, to_rpm))?
+            }
         };
         let plate = Plate::new(&swept, Resolution::of(swept.accuracy()));
         if plate.is_axisymmetric() && force.force_n == 0.0 {

@@ -1,11 +1,13 @@
 //! The deflection at the cut, and the forces of the pads, over gap, side force and speed.
 
+use std::sync::Arc;
+
 use rayon::prelude::*;
 
 use crate::model::evenly_spaced;
-use crate::model::scene::Scene;
+use crate::model::plate::{Plate, Stretching};
 use crate::modes::Work;
-use crate::motion::stretched_blade::{Deviation, PressedBlade};
+use crate::motion::stretched_blade::{Deviation, PressedBlade, StretchedError};
 use crate::stability::Analysis;
 
 use super::error::GapError;
@@ -48,9 +50,11 @@ pub(super) fn deviation_map(
     let scene = &analysis.scene;
     let force_n = scene.constant_force_at(rpm).force_n;
     let end_rpm = crate::model::scene::rpm(analysis.range_rad_per_s.to_rad_per_s);
-    let blade_of = |scene: &Scene, modes: usize| {
-        let resolution = analysis.model.plate.resolution;
-        PressedBlade::new(scene, resolution, end_rpm.max(rpm), modes)
+    let plate = Plate::new(scene, analysis.model.plate.resolution);
+    let stretching = Arc::new(Stretching::new(&plate).map_err(StretchedError::from)?);
+    let blade_of = |modes: usize| {
+        let asked = (end_rpm.max(rpm), modes);
+        PressedBlade::stretched(scene, &plate, asked, Arc::clone(&stretching))
     };
     let thickness_m = scene.blade().thickness_m;
     let gap_factors: Vec<f64> = [0.0].into_iter().chain(factors()).collect();
@@ -59,7 +63,7 @@ pub(super) fn deviation_map(
     let critical = analysis.model.critical.first();
     let critical_rpm = critical.map(|first| crate::model::scene::rpm(first.speed_rad_per_s));
     let work = Work::of("gaps", gap_factors.len() + 1);
-    let blade = blade_of(scene, MODES)?;
+    let blade = blade_of(MODES)?;
     let rows = gap_factors.par_iter().map(|factor| {
         let pressed = blade.with_gaps(factor.max(NO_GAP));
         let under = |force: f64| -> Result<_, GapError> { Ok(pressed.deviation(force, rpm)?) };
@@ -91,7 +95,7 @@ pub(super) fn deviation_map(
         .into_iter()
         .map(|(forces, speeds, _)| (forces, speeds))
         .unzip();
-    let finer = blade_of(scene, MORE_MODES)?;
+    let finer = blade_of(MORE_MODES)?;
     let basis_error = basis_error(&blade, &finer, &forces_n, rpm)?;
     work.advance();
     let all = over_gap.iter().flatten().flatten();

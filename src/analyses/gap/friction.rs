@@ -6,7 +6,10 @@
 //! changes, or it is known that it cannot settle. All numbers are those of the settled temperature. The effect of the force of friction on the
 //! motion is neglected.
 
+use std::sync::Arc;
+
 use crate::model::plate::heated_disk::{Cooling, radii_m, rises_k};
+use crate::model::plate::{Plate, Stretching};
 use crate::model::scene;
 use crate::model::scene::{
     FrictionFile, Guide, Scene, TemperatureFile, TemperatureRow, rad_per_s, typical_value,
@@ -35,6 +38,8 @@ struct Loop<'a> {
     friction: FrictionFile,
     radii_m: Vec<f64>,
     expansion_per_k: f64,
+    /// Potential of stretching, which the heat does not change.
+    stretching: Arc<Stretching>,
 }
 
 /// A blade with a temperature.
@@ -59,12 +64,13 @@ impl Loop<'_> {
         let work = Work::of("friction", MOST);
         let settling = settled(vec![0.0; self.radii_m.len()], RUNAWAY_K, |rise_k| {
             let warm = self.warm(rise_k)?;
-            let resolution = self.analysis.model.plate.resolution;
+            let plate = Plate::new(&warm, self.analysis.model.plate.resolution);
+            let stretching = Arc::clone(&self.stretching);
+            let pressed = PressedBlade::stretched(&warm, &plate, (rpm, MODES), stretching);
             // A blade that its heat buckles at rest is refused as a scene, too.
-            if unless_buckled(first_critical_of_linear(&warm, resolution))?.is_none() {
+            let Some(blade) = unless_buckled(pressed.map_err(GapError::from))? else {
                 return Ok(None);
-            }
-            let blade = PressedBlade::new(&warm, resolution, rpm, MODES)?;
+            };
             let (deviation, contacts) =
                 blade.with_contacts(scene.constant_force_at(rpm).force_n, rpm)?;
             work.advance();
@@ -151,7 +157,9 @@ impl FrictionHeat {
         let resolution = analysis.model.plate.resolution;
         let membrane = scene.membrane();
         let own = membrane.and_then(|membrane| membrane.temperature.as_ref());
+        let plate = &analysis.model.plate;
         let cycle = Loop {
+            stretching: Arc::new(Stretching::new(plate).map_err(StretchedError::from)?),
             analysis,
             friction,
             radii_m: radii_m(scene.blade()),

@@ -54,8 +54,9 @@ use deviation::deviation_map;
 use oscillation::oscillation;
 
 use crate::analyses::campbell::caution;
-use crate::model::scene::{Scene, rad_per_s, rpm};
+use crate::model::scene::{RefusedValue, Scene, rad_per_s, rpm};
 use crate::motion::steady::Oscillators;
+use crate::page::text::{rounded_down, shown};
 use crate::stability::Analysis;
 
 /// Computes the chart over the amplitude, the deflection over gap, force and speed, and, if they are asked for, oscillation
@@ -77,6 +78,7 @@ pub fn gap(scene: &Scene, options: &Options) -> Result<GapReport, GapError> {
         .or(scene.operating_rad_per_s())
         .or(first.map(|critical| 0.5 * critical.speed_rad_per_s))
         .unwrap_or(analysis.range_rad_per_s.to_rad_per_s);
+    check_complete(&analysis, options, speed)?;
     let speed_rpm = rpm(speed);
     let deviation = deviation_map(&analysis, speed_rpm, scene.limits().max_deviation_m)?;
     let oscillators = Oscillators::of(scene);
@@ -112,6 +114,26 @@ pub fn gap(scene: &Scene, options: &Options) -> Result<GapReport, GapError> {
         friction: heated,
         warnings,
     })
+}
+
+/// Refuses a speed above the one up to which the basis of an analysis has all waves that stand still, and with them the shapes that
+/// deflect most.
+fn check_complete(
+    analysis: &Analysis,
+    options: &Options,
+    speed_rad_per_s: f64,
+) -> Result<(), RefusedValue> {
+    if speed_rad_per_s <= analysis.complete_to_rad_per_s {
+        return Ok(());
+    }
+    let (key, given_rpm) = match options.rpm {
+        Some(given_rpm) => ("rpm", given_rpm),
+        None => ("operating_rpm", rpm(speed_rad_per_s)),
+    };
+    let most = rounded_down(5, rpm(analysis.complete_to_rad_per_s));
+    let allowed = format!("at most {} with the sweep of this scene", shown(most));
+    let remedy = "the functions for this sweep lack waves that stand still at higher speeds; give a lower speed, or a sweep.to_rpm that is as high";
+    Err(RefusedValue::new(key, given_rpm, allowed, remedy))
 }
 
 /// Remark on guides whose force has a mean over an oscillation, which moves the blade.

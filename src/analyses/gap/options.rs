@@ -7,6 +7,7 @@ use crate::model::scene::{Blade, Bore, Guide, RefusedValue, Scene, speed_rad_per
 use crate::motion::steady::Oscillators;
 use crate::motion::stretched_blade::LARGEST_SLOPE;
 use crate::page::text::shown_to;
+use crate::stability::check_speed;
 
 /// Evaluates guides with a gap: the chart over the amplitude at them, and the deflection at the cut over the gap.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Deserialize, JsonSchema)]
@@ -32,6 +33,9 @@ impl Options {
     pub(super) fn checked_still(&self, scene: &Scene) -> Result<(), RefusedValue> {
         if let Some(rpm) = self.rpm {
             speed_rad_per_s("rpm", rpm)?;
+            check_speed(scene.blade(), "rpm", rpm)?;
+        } else if let Some(rpm) = scene.file().operating_rpm {
+            check_speed(scene.blade(), "operating_rpm", rpm)?;
         }
         let force_n = scene.file().side_force_n();
         if force_n == 0.0 {

@@ -229,6 +229,46 @@ fn a_gap_that_the_blade_cannot_cross_is_refused_before_any_work() {
     assert!(options.checked(&lifting(0.02)).is_ok());
 }
 
+/// Hoop strain ρ(Ωb)²/E of the rim of 0.1, as for the end of a sweep.
+#[test]
+fn a_speed_that_tears_the_blade_is_refused_before_any_work() {
+    let scene = lifting(1e-4);
+    let blade = scene.blade();
+    let hoop = |rpm: f64| {
+        let material = blade.material;
+        let speed = rpm * std::f64::consts::TAU / 60.0 * blade.outer_radius_m;
+        material.density_kg_per_m3 * speed * speed / material.youngs_modulus_pa
+    };
+    let fastest_rpm = (0.1 / hoop(1.0)).sqrt();
+    let at = |rpm: f64| {
+        let options = Options {
+            rpm: Some(rpm),
+            ..Options::default()
+        };
+        options.checked(&scene)
+    };
+    assert!(at(0.999 * fastest_rpm).is_ok());
+    let message = at(1e8).unwrap_err().to_string();
+    let begin = format!("rpm must be at most {fastest_rpm:.0} (you gave 1e8)");
+    assert!(message.starts_with(&begin), "{message}");
+    // Above the speeds for which the basis was chosen it lacks waves that stand still.
+    let options = Options {
+        rpm: Some(0.5 * fastest_rpm),
+        ..Options::default()
+    };
+    let message = gap(&scene, &options).unwrap_err().to_string();
+    assert!(
+        message.contains("with the sweep of this scene"),
+        "{message}"
+    );
+    let operated = scene.edited(|file| file.operating_rpm = Some(1e7)).unwrap();
+    let message = Options::default()
+        .checked(&operated)
+        .unwrap_err()
+        .to_string();
+    assert!(message.starts_with("operating_rpm must be"), "{message}");
+}
+
 /// A point pad touches a clamped blade at one place. The power follows from its force, and the temperature is that of the
 /// closed form for this power; the heat changes the critical speed.
 #[test]

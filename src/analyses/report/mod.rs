@@ -25,7 +25,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::campbell::{Report, Sensitivity, caution};
-use super::gap::{self, GapReport, gap};
+use super::gap::{self, GapError, GapReport, gap};
 use super::response::{self, ResponseReport};
 use crate::model::scene::{Scene, SceneFile};
 use crate::stability::Analysis;
@@ -104,9 +104,12 @@ pub fn report(scene: &Scene, options: &Options) -> Result<DesignReport, DesignEr
     )?;
     let pads = LoadedPad::all(deciding_analysis);
     let one_sided = gap::Options::default();
-    let gap = match one_sided.checked(scene) {
-        Ok(()) => Some(gap(&still, &one_sided)?),
-        Err(_) => None,
+    let (gap, gap_refused) = match one_sided.checked(scene) {
+        Ok(()) => match gap(&still, &one_sided) {
+            Err(GapError::Refused(refused)) => (None, Some(refused)),
+            found => (Some(found?), None),
+        },
+        Err(_) => (None, None),
     };
     let condition = match &cut {
         Some((_, report)) => format!("idling, and {}", report.condition),
@@ -122,6 +125,8 @@ pub fn report(scene: &Scene, options: &Options) -> Result<DesignReport, DesignEr
             warnings.push(warning.clone());
         }
     }
+    let unevaluated = |refused| format!("the guides with a gap are not evaluated: {refused}");
+    warnings.extend(gap_refused.map(unevaluated));
     if cut.is_some()
         && let Some(operating) = idling.operating.as_mut()
     {

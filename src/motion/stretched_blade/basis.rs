@@ -1,5 +1,7 @@
 //! Bases of a few shapes for a blade that stretches.
 
+use std::sync::Arc;
+
 use faer::{Col, Mat, Scale};
 
 use crate::model::linalg::SymmetricEigen;
@@ -149,7 +151,7 @@ impl StretchedBlade {
 pub(crate) struct ForcedPlate {
     saw: Assembled,
     full: GyroscopicSystem,
-    stretching: Stretching,
+    stretching: Arc<Stretching>,
     /// Shapes of the critical speeds, and deflections of the linear model.
     shapes: Vec<Col<f64>>,
 }
@@ -165,6 +167,21 @@ impl ForcedPlate {
         places: &[(Polar, f64)],
     ) -> Result<Self, StretchedError> {
         finite("the speed in rad/s", to_rad_per_s)?;
+        let stretching = Arc::new(Stretching::new(plate)?);
+        Self::stretched(plate, to_rad_per_s, places, stretching)
+    }
+
+    /// As [`ForcedPlate::new`], with the known potential of stretching, which neither heat nor guides change.
+    ///
+    /// # Errors
+    /// [`StretchedError`] as for [`StretchedBlade::up_to`].
+    pub fn stretched(
+        plate: &Plate,
+        to_rad_per_s: f64,
+        places: &[(Polar, f64)],
+        stretching: Arc<Stretching>,
+    ) -> Result<Self, StretchedError> {
+        finite("the speed in rad/s", to_rad_per_s)?;
         let plate = plate.conservative();
         let full = restrained(&plate, 1)?;
         let saw = Assembled::from(plate);
@@ -176,7 +193,7 @@ impl ForcedPlate {
         let force = saw.plate.load_at(places);
         shapes.extend(bent(&saw, &force, to_rad_per_s));
         Ok(ForcedPlate {
-            stretching: Stretching::new(&saw.plate)?,
+            stretching,
             saw,
             full,
             shapes,

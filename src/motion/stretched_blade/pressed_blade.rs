@@ -1,9 +1,12 @@
 //! A blade under a side force: its stationary deflection between pads that lift off.
 
-use crate::model::plate::{Plate, Resolution};
+use std::sync::Arc;
+
+use crate::model::plate::{Plate, Resolution, Stretching};
 use crate::model::scene::{Polar, Scene, rad_per_s};
 use crate::modes::Cancellation;
 
+use super::basis::ForcedPlate;
 use super::equilibrium::Equilibrium;
 use super::sites::Sites;
 use super::slopes::Slopes;
@@ -61,10 +64,24 @@ impl PressedBlade {
         modes: usize,
     ) -> Result<Self, StretchedError> {
         let plate = Plate::new(scene, resolution);
+        let stretching = Arc::new(Stretching::new(&plate)?);
+        Self::stretched(scene, &plate, (to_rpm, modes), stretching)
+    }
+
+    /// As [`PressedBlade::new`], for the plate of the scene and its known potential of stretching, which neither heat nor guides change.
+    ///
+    /// # Errors
+    /// [`StretchedError`].
+    pub fn stretched(
+        scene: &Scene,
+        plate: &Plate,
+        (to_rpm, modes): (f64, usize),
+        stretching: Arc<Stretching>,
+    ) -> Result<Self, StretchedError> {
         let places = scene.constant_force().places;
         let modes = modes.min(plate.degrees_of_freedom());
-        let to_rad_per_s = rad_per_s(to_rpm);
-        let blade = StretchedBlade::up_to_with(&plate, to_rad_per_s, &places, modes, &[])?;
+        let forced = ForcedPlate::stretched(plate, rad_per_s(to_rpm), &places, stretching)?;
+        let blade = forced.blade(modes, &[])?;
         Ok(PressedBlade {
             sites: blade.sites(),
             slopes: blade.slopes(),

@@ -4,6 +4,8 @@
 //! the four. Of these the one whose entries do not depend on it either is kept: one product Qz then gives the energy, the
 //! gradient and the second derivatives.
 
+use std::sync::Arc;
+
 use faer::{Col, Mat, MatRef, Scale};
 use rayon::prelude::*;
 
@@ -17,7 +19,8 @@ use super::{Stretching, StretchingError};
 pub struct ReducedStretching {
     order: usize,
     /// Matrix Q, of order r(r+1)/2, for the pairs (0, 0), (1, 0), (1, 1), (2, 0) …
-    quartic: Mat<f64>,
+    /// Copies of a blade under other forces or with other gaps share it.
+    quartic: Arc<Mat<f64>>,
 }
 
 impl ReducedStretching {
@@ -39,7 +42,7 @@ impl ReducedStretching {
         let relaxed = Mat::from_fn(height, pairs.len(), |i, k| columns[k][i]);
         // The potential is U₄ = |Z e|², in which p_a p_b · p_c p_d has this product of the columns of both pairs.
         let products = relaxed.transpose() * &relaxed;
-        let quartic = Mat::from_fn(pairs.len(), pairs.len(), |i, k| {
+        let entry = |i: usize, k: usize| {
             let ([a, b], [c, d]) = (pairs[i], pairs[k]);
             let orders = [
                 products[(i, k)],
@@ -47,8 +50,18 @@ impl ReducedStretching {
                 products[(pair(a, d), pair(b, c))],
             ];
             2.0 / 3.0 * orders.iter().sum::<f64>() * times(a, b) * times(c, d)
-        });
-        Ok(ReducedStretching { order, quartic })
+        };
+        let mut quartic = Mat::zeros(pairs.len(), pairs.len());
+        for k in 0..pairs.len() {
+            for i in k..pairs.len() {
+                let value = entry(i, k);
+                (quartic[(i, k)], quartic[(k, i)]) = (value, value);
+            }
+        }
+        Ok(ReducedStretching {
+            order,
+            quartic: Arc::new(quartic),
+        })
     }
 
     /// Number of shapes r.
@@ -85,7 +98,7 @@ impl ReducedStretching {
     /// # Errors
     /// [`StretchingError::Length`].
     pub fn gradients(&self, coordinates: &Mat<f64>) -> Result<Mat<f64>, StretchingError> {
-        let tensions = &self.quartic * self.all_products(coordinates)?;
+        let tensions = &*self.quartic * self.all_products(coordinates)?;
         let mut gradients = Mat::zeros(self.order, coordinates.ncols());
         for (k, mut gradient) in gradients.col_iter_mut().enumerate() {
             let tension = tensions.col(k).to_owned();
@@ -104,7 +117,7 @@ impl ReducedStretching {
         coordinates: &Mat<f64>,
         weights: &Mat<f64>,
     ) -> Result<Mat<f64>, StretchingError> {
-        let tensions = &self.quartic * (self.all_products(coordinates)? * weights);
+        let tensions = &*self.quartic * (self.all_products(coordinates)? * weights);
         let mut sums = Mat::zeros(self.order * self.order, weights.ncols());
         for (tension, mut sum) in tensions.col_iter().zip(sums.col_iter_mut()) {
             let hessian = self.hessian_with(&tension.to_owned());
@@ -131,7 +144,7 @@ impl ReducedStretching {
     /// # Errors
     /// [`StretchingError::Length`].
     pub fn tension(&self, coordinates: &Col<f64>) -> Result<Col<f64>, StretchingError> {
-        Ok(&self.quartic * self.products(coordinates)?)
+        Ok(&*self.quartic * self.products(coordinates)?)
     }
 
     /// U₄, in J, with the tension of the same coordinates.

@@ -78,7 +78,11 @@ impl Relaxed {
 
 /// Rows of R Pᵀ by column pivoting: the largest remaining column gives the next direction of Q, which is
 /// removed from all columns. There are few rows, because most columns are combinations of a few.
-fn triangular(mut left: Mat<f64>) -> Vec<Vec<f64>> {
+///
+/// The triangular factor of an ordinary QR decomposition, which replaces the matrix, has the same products of columns and a tenth of its
+/// rows.
+fn triangular(whole: Mat<f64>) -> Vec<Vec<f64>> {
+    let mut left = whole.qr().thin_R().to_owned();
     let mut rows = Vec::new();
     let mut directions: Vec<Col<f64>> = Vec::new();
     let mut negligible = 0.0;
