@@ -16,7 +16,7 @@ use sawflutter::analyses::response::{self, response};
 use sawflutter::analyses::runup::runup;
 use sawflutter::analyses::study::StudyReport;
 use sawflutter::model::scene::{
-    Accuracy, ContactLaw, Freed, Scene, SceneError, SceneFile, SideForceFile, rad_per_s,
+    Accuracy, ContactLaw, Freed, LimitsFile, Scene, SceneError, SceneFile, SideForceFile, rad_per_s,
 };
 use sawflutter::stability::Analysis;
 
@@ -192,8 +192,11 @@ fn svgs(report: &impl CommandReport) -> anyhow::Result<Vec<Figure>> {
 /// Computes the report of `sawflutter check --rpm 1250 --min-critical 1500 --min-flutter 2500`.
 fn check(scene: &Scene) -> anyhow::Result<CheckReport> {
     let limits = Limits {
-        min_critical_rad_per_s: Some(rad_per_s(1500.0)),
-        min_flutter_rad_per_s: Some(rad_per_s(2500.0)),
+        limits: LimitsFile {
+            min_critical_rpm: Some(1500.0),
+            min_flutter_rpm: Some(2500.0),
+            ..LimitsFile::default()
+        },
         ..Limits::at(rad_per_s(1250.0))
     };
     Ok(check::check(scene, &limits)?)

@@ -14,6 +14,10 @@ from ._scene_types import SceneDict, StudyDict
 
 InstabilityKind: TypeAlias = Literal["divergence", "flutter"]
 
+Answer: TypeAlias = Literal["yes", "at_risk", "no"]
+
+LimitSource: TypeAlias = Literal["stability", "practice", "user"]
+
 StabilityState: TypeAlias = Literal["stable", "divergence", "flutter", "too_close", "not_determined", "not_covered", "outside_sweep"]
 
 ForceCause: TypeAlias = Literal["side_force", "cut", "assumed"]
@@ -155,6 +159,8 @@ class Instability(Entry):
     counted_rpm : Intervals [from, to] in which the band counts as an instability: divergence as
         a whole; flutter of an undamped blade as a whole if its largest growth reaches the
         threshold, of a damped one where its growth does.
+    felt_rpm : The same for a hundredth of the threshold: outside these intervals a growth is
+        not felt.
     saturated_amplitude_m : Amplitude to which flutter rises from a small motion at the speed of
         largest growth, limited by stretching, without damping; up to 1.41 times as large near
         one edge of the band. Null unless requested, for divergence, if only damping makes the
@@ -178,6 +184,7 @@ class Instability(Entry):
     branches: IntArray
     modes: tuple[str, ...]
     counted_rpm: FloatArray
+    felt_rpm: FloatArray
     saturated_amplitude_m: float | None = field(default=None)
     amplitude_not_computed: str | None = field(default=None)
     estimated_relative_error: float | None = field(default=None)
@@ -273,6 +280,61 @@ class Excitation(Entry):
 
 
 @dataclass(frozen=True, eq=False, repr=False, kw_only=True)
+class Criterion(Entry):
+    """One limit and its result.
+
+    Attributes
+    ----------
+    key : Short name of the limit, for programs.
+    name : Requirement in words.
+    finding : Result in words.
+    found_rpm : Speed that was found: the critical or flutter speed itself, or the speed above
+        which another limit is exceeded; null if it exceeds the sweep.
+    asked_rpm : Speed with which the found one is compared.
+    source : Who demands it.
+    answer : Yes if the limit is kept; no if a motion grows or a limit of the user is not kept;
+        otherwise at risk.
+    """
+
+    key: str
+    name: str
+    finding: str
+    found_rpm: float | None
+    asked_rpm: float
+    source: LimitSource
+    answer: Answer
+
+
+@dataclass(frozen=True, eq=False, repr=False, kw_only=True)
+class VerdictEntry(Entry):
+    """Whether a saw can run at its operating speed, and why.
+
+    Attributes
+    ----------
+    answer : The answer: the worst of those of all limits; null without an operating speed.
+    rpm : Speed that is judged; null without an operating speed.
+    cause : Short name of what decides: divergence, flutter, weak_flutter, too_close,
+        not_determined, not_covered, outside_sweep, or the key of a limit; null if the answer is
+        yes.
+    reason : What decides, in words.
+    allowed_to_rpm : Highest speed up to which the answer is yes at every speed of the sweep
+        from its start on; null if it is so at none.
+    allowed_by : What ends these speeds, in words; null without such speeds.
+    windows_rpm : All ranges of speed in the sweep with the answer yes.
+    limits : Every limit, with its result at the operating speed; empty without one.
+    """
+
+    answer: Answer | None
+    rpm: float | None
+    cause: str | None
+    reason: str
+    allowed_to_rpm: float | None
+    allowed_by: str | None
+    windows_rpm: FloatArray
+    limits: tuple[Criterion, ...]
+
+
+@dataclass(frozen=True, eq=False, repr=False, kw_only=True)
 class BoardDeviation(Entry):
     """Stationary deflection of the rim at the cut under a constant lateral force.
 
@@ -298,7 +360,7 @@ class BoardDeviation(Entry):
 
 @dataclass(frozen=True, eq=False, repr=False, kw_only=True)
 class Operating(Entry):
-    """Comparison of the operating speed with the first critical speed.
+    """Motions at the operating speed; verdict judges them.
 
     Attributes
     ----------
@@ -307,9 +369,7 @@ class Operating(Entry):
         none.
     of_lowest_critical : Ratio of operating speed to first critical speed; null if the blade has
         no critical speed.
-    limit : Usual limit of that ratio, 0.85.
-    within_limit : Whether the ratio is at most the limit; null without a ratio.
-    verdict : Whether the saw is stable at that speed.
+    stability : Whether a motion grows at that speed.
     inside_instability : Index into `instabilities` of the band that makes it unstable.
     undecided_edge_rpm : Speed at which a band begins or ends, if it is so close to the
         operating speed that its estimated error leaves open on which side that is; else null.
@@ -331,9 +391,7 @@ class Operating(Entry):
     rpm: float
     lowest_critical_rpm: float | None = field(default=None)
     of_lowest_critical: float | None
-    limit: float
-    within_limit: bool | None
-    verdict: StabilityState
+    stability: StabilityState
     inside_instability: int | None
     undecided_edge_rpm: float | None = field(default=None)
     at_critical_rpm: float | None = field(default=None)
@@ -933,8 +991,8 @@ class CampbellReport(Entry):
     in_cut : The forces of the cut in the diagram, and the idling saw, if the scene requests it.
     excitation : Multiples of the rotation speed and their crossings with natural frequencies,
         if the scene requests them.
-    operating : Comparison of the operating speed with the 85 % rule, if the scene has an
-        operating speed.
+    verdict : Whether the saw can run at its operating speed.
+    operating : Motions at the operating speed, if the scene has one.
     whirl : Modes at one speed, on request.
     shapes : Shapes of the blade at every critical speed, at the peak of every band, at the
         operating speed and at further speeds, on request.
@@ -966,6 +1024,7 @@ class CampbellReport(Entry):
     flutter_threshold_per_s: float
     in_cut: InCut | None = field(default=None)
     excitation: Excitation | None = field(default=None)
+    verdict: VerdictEntry
     operating: Operating | None
     whirl: Whirl | None
     shapes: tuple[EventShape, ...] = field(default=())
@@ -977,29 +1036,6 @@ class CampbellReport(Entry):
     membrane: Membrane | None
     sensitivities: tuple[Sensitivity, ...]
     warnings: tuple[str, ...]
-
-
-@dataclass(frozen=True, eq=False, repr=False, kw_only=True)
-class Criterion(Entry):
-    """One limit and its result.
-
-    Attributes
-    ----------
-    key : Short name of the limit, for programs.
-    name : Requirement in words.
-    finding : Result in words.
-    found_rpm : Speed that was found: the critical or flutter speed itself, or the speed above
-        which another limit is exceeded; null if it exceeds the sweep.
-    asked_rpm : Speed with which the found one is compared.
-    passed : Whether the limit is kept.
-    """
-
-    key: str
-    name: str
-    finding: str
-    found_rpm: float | None
-    asked_rpm: float
-    passed: bool
 
 
 @dataclass(frozen=True, eq=False, repr=False, kw_only=True)
@@ -1019,6 +1055,33 @@ class RimStiffness(Entry):
 
 
 @dataclass(frozen=True, eq=False, repr=False, kw_only=True)
+class LimitsFile(Entry):
+    """Limits that the saw has to keep, for every verdict. An absent one is that of practice, if
+    there is one.
+
+    Attributes
+    ----------
+    margin : Largest ratio of the operating speed to the first critical speed; 0.85 where it is
+        absent, the rule of saw makers.
+    min_critical_rpm : Lowest allowed first critical speed.
+    min_flutter_rpm : Lowest allowed flutter speed.
+    max_rim_m_per_s : Largest allowed speed of the rim; 100 m/s where it is absent, the most
+        that makers of carbide-tipped blades allow. Saws for stone have 80 m/s.
+    max_amplitude_m : Largest allowed amplitude of flutter in any band up to the operating
+        speed, without damping.
+    max_deviation_m : Largest allowed deflection of the rim at the cut under the lateral force,
+        at the operating speed.
+    """
+
+    margin: float | None = field(default=None)
+    min_critical_rpm: float | None = field(default=None)
+    min_flutter_rpm: float | None = field(default=None)
+    max_rim_m_per_s: float | None = field(default=None)
+    max_amplitude_m: float | None = field(default=None)
+    max_deviation_m: float | None = field(default=None)
+
+
+@dataclass(frozen=True, eq=False, repr=False, kw_only=True)
 class CheckReport(Entry):
     """A comparison of a saw with limits.
 
@@ -1031,10 +1094,9 @@ class CheckReport(Entry):
     unusual_numbers : Numbers that no saw has, each with its key, the usual range, and the
         remedy. The results hold for the numbers as typed.
     accept_unusual : Whether a saw with unusual numbers may pass.
-    passed : Whether every limit is kept and unusual numbers are absent or accepted.
-    criteria : Every limit.
+    passed : Whether the answer is yes, and unusual numbers are absent or accepted.
+    verdict : Whether the saw can run at the operating speed, with every limit.
     operating_rpm : Operating speed.
-    margin : Largest ratio of the operating speed to the first critical speed.
     to_rpm : Last speed of the sweep; results are limited to it.
     critical_rpm : Critical speeds within the sweep, ascending.
     bands : Every band of instability within the sweep.
@@ -1049,8 +1111,7 @@ class CheckReport(Entry):
         operating speed.
     rim_stiffness : Lateral stiffness of this point over the speed.
     rim_speed_m_per_s : Rim speed at the operating speed.
-    max_rim_m_per_s : Limit of the rim speed.
-    max_amplitude_m : Limit of the amplitude of flutter, if there is one.
+    limits : Limits that the scene and the options set.
     estimated_relative_error : Estimated relative error of the critical speeds.
     warnings : Remarks on the validity of the result.
     """
@@ -1061,9 +1122,8 @@ class CheckReport(Entry):
     unusual_numbers: tuple[str, ...] = field(default=())
     accept_unusual: bool = field(default=False)
     passed: bool
-    criteria: tuple[Criterion, ...]
+    verdict: VerdictEntry
     operating_rpm: float
-    margin: float
     to_rpm: float
     critical_rpm: FloatArray = field(metadata={"key": "critical_speeds_rpm"})
     bands: tuple[Instability, ...] = field(metadata={"key": "instabilities"})
@@ -1074,8 +1134,7 @@ class CheckReport(Entry):
     deviation: BoardDeviation | None = field(default=None)
     rim_stiffness: RimStiffness
     rim_speed_m_per_s: float
-    max_rim_m_per_s: float
-    max_amplitude_m: float | None = field(default=None)
+    limits: LimitsFile
     estimated_relative_error: float | None
     warnings: tuple[str, ...]
 
@@ -1093,7 +1152,8 @@ class Compared(Entry):
     critical_speeds : Critical speeds up to the end of its sweep, ascending.
     bands : The bands of instability within its sweep.
     flutter_rpm : Lowest speed at which flutter counts.
-    operating : Operating speed, and whether the saw is stable there.
+    verdict : Whether the saw can run at its operating speed.
+    operating : Motions at its operating speed.
     rim_stiffness_at_rest_n_per_m : Lateral stiffness of a point of the rim at the middle of the
         cut, at rest; null if the blade has free rigid motions, and for a saw whose report was
         given instead of its scene.
@@ -1108,6 +1168,7 @@ class Compared(Entry):
     critical_speeds: tuple[CriticalSpeed, ...]
     bands: tuple[Instability, ...] = field(metadata={"key": "instabilities"})
     flutter_rpm: float | None = field(metadata={"key": "flutter_speed_rpm"})
+    verdict: VerdictEntry
     operating: Operating | None
     rim_stiffness_at_rest_n_per_m: float | None
     estimated_relative_error: float | None
@@ -1325,6 +1386,11 @@ class CutRun(Entry):
     tangential_n_per_tooth : Force against the rotation on each tooth.
     radial_n_per_tooth : Force towards the axis on each tooth.
     lateral_n_per_tooth : Force across the blade on each tooth.
+    answer : Whether the saw can run in the cut: no if a vibration grows; at risk at a critical
+        speed, at more than 85 % of the first one, and where the rim moves by more than the
+        thickness of the blade or the deflection leaves the model.
+    past_critical_rpm : First critical speed, of the saw in the cut or out of it, if the speed
+        is more than the allowed share of it; else null.
     verdict : The worst of the criteria; if no vibration grows, whether the deflection stays
         within the model, and the speed away from critical speeds.
     at_critical_rpm : Critical speed within 5 % of this speed, of the saw in the cut or out of
@@ -1366,6 +1432,8 @@ class CutRun(Entry):
     tangential_n_per_tooth: float
     radial_n_per_tooth: float
     lateral_n_per_tooth: float
+    answer: Answer
+    past_critical_rpm: float | None = field(default=None)
     verdict: CutVerdict
     at_critical_rpm: float | None = field(default=None)
     decided_by: CutCriterion
@@ -2146,9 +2214,8 @@ class MappedSaw(Entry):
     flutter_rpm : Flutter speed; null if no flutter counts within the sweep.
     critical_rpm : Critical speeds within the sweep, ascending.
     bands : Bands of instability within the sweep, by onset.
-    state : Whether the saw is stable at the speed at which the saws are judged; null without
-        such a speed.
-    at_critical_rpm : Critical speed within 5 % of that speed; null if there is none.
+    verdict : Whether the saw can run at the speed at which the saws are judged; null if it was
+        not analysed.
     side_force_factor : Deflection of the rim at the cut under a constant side force there at
         that speed, relative to that at rest, as in the verdict of `analyze`; null without such
         a speed, unless the saw is stable, and where no verdict gives it.
@@ -2161,8 +2228,7 @@ class MappedSaw(Entry):
     flutter_rpm: float | None = field(metadata={"key": "flutter_speed_rpm"})
     critical_rpm: FloatArray
     bands: tuple[Instability, ...] = field(metadata={"key": "instabilities"})
-    state: StabilityState | None
-    at_critical_rpm: float | None
+    verdict: VerdictEntry | None
     side_force_factor: float | None = field(default=None)
     not_analysed: str | None
 
@@ -2409,6 +2475,9 @@ class PlaceReport(Entry):
         teeth)".
     unusual_numbers : Numbers that no saw has, each with its key, the usual range, and the
         remedy. The results hold for the numbers as typed.
+    verdict : Verdict on the saw with the best numbers; null if it could not be analysed, see
+        `warnings`.
+    verdict_before : Verdict on the original saw; null if it could not be analysed.
     goal : The quantity that was maximized.
     min_critical_rpm : Lower limit of the first critical speed, if there is one.
     amplitude_m : Amplitude at guides with a gap with whose mean stiffness bands and critical
@@ -2454,6 +2523,8 @@ class PlaceReport(Entry):
     scene: SceneDict
     condition: str = field(default="")
     unusual_numbers: tuple[str, ...] = field(default=())
+    verdict: VerdictEntry | None
+    verdict_before: VerdictEntry | None
     goal: Goal
     min_critical_rpm: float | None
     amplitude_m: float | None = field(default=None)
@@ -2515,8 +2586,8 @@ class ReportCampbellReport(Entry):
     in_cut : The forces of the cut in the diagram, and the idling saw, if the scene requests it.
     excitation : Multiples of the rotation speed and their crossings with natural frequencies,
         if the scene requests them.
-    operating : Comparison of the operating speed with the 85 % rule, if the scene has an
-        operating speed.
+    verdict : Whether the saw can run at its operating speed.
+    operating : Motions at the operating speed, if the scene has one.
     whirl : Modes at one speed, on request.
     shapes : Shapes of the blade at every critical speed, at the peak of every band, at the
         operating speed and at further speeds, on request.
@@ -2548,6 +2619,7 @@ class ReportCampbellReport(Entry):
     flutter_threshold_per_s: float
     in_cut: InCut | None = field(default=None)
     excitation: Excitation | None = field(default=None)
+    verdict: VerdictEntry
     operating: Operating | None
     whirl: Whirl | None
     shapes: tuple[EventShape, ...] = field(default=())
@@ -2844,6 +2916,7 @@ class DesignReport(Entry):
         remedy. The results hold for the numbers as typed.
     customer : For whom the report is; null if not given.
     date : Date of the report as typed; null if not given.
+    verdict : The verdict of the condition with the worse answer, idling or in the cut.
     idling : Analysis of the idling saw, with sensitivities; the deviation of the board is that
         of the cut, if there is one.
     in_cut : Analysis under the forces of the cut, with sensitivities; null for a scene without
@@ -2864,6 +2937,7 @@ class DesignReport(Entry):
     unusual_numbers: tuple[str, ...]
     customer: str | None
     date: str | None
+    verdict: VerdictEntry
     idling: ReportCampbellReport
     in_cut: ReportCampbellReport | None
     response: ResponseReport
@@ -3102,7 +3176,7 @@ class SizeAnswer(Entry):
     value : The value, rounded to a usual step towards the inside of the range.
     is_of_scene : Whether the scene has it already.
     scene : The scene with this value.
-    criteria : Every limit at this value.
+    verdict : Whether the saw can run with this value, with every limit.
     first_critical_rpm : First critical speed at this value; null if there is none.
     deflection_m : Deflection of the rim at the cut at this value; null if it is unknown.
     critical_rpm_per_percent : Change of the first critical speed if the number is larger by 1
@@ -3114,7 +3188,7 @@ class SizeAnswer(Entry):
     value: float
     is_of_scene: bool
     scene: SceneDict
-    criteria: tuple[Criterion, ...]
+    verdict: VerdictEntry
     first_critical_rpm: float | None
     deflection_m: float | None
     critical_rpm_per_percent: float | None

@@ -5,6 +5,8 @@ from __future__ import annotations
 import base64
 import json
 import os
+
+from operator import attrgetter
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, ClassVar, TypeVar
 
@@ -56,7 +58,7 @@ class Report(Drawn):
         slow sweep for each stable equilibrium, without its frequencies; guides with a gap for each
         ``gap_factor`` and ``force_n``, with the deflections at the cut.
         """
-        return entries(getattr(self, self._rows_of))
+        return entries(attrgetter(self._rows_of)(self))
 
     def __eq__(self, other: object) -> bool:
         return isinstance(other, type(self)) and self._text == other._text

@@ -1015,7 +1015,7 @@ class StudyDict(_StudyDict, total=False):
     """Whether the table lists the bands of instability of each saw, in the column `bands`:
     kind, onset and end in rpm, whether both are within the sweep, speed in rpm, growth rate in
     1/s and frequency in Hz of the largest growth, and the ranges of speed in which the band
-    counts; bands are separated by semicolons."""
+    counts, and after a bar those in which it is felt; bands are separated by semicolons."""
 
 NumberPath: TypeAlias = Literal[
     "blade.outer_diameter_m", "blade.inner_diameter_m", "blade.thickness_m", "blade.teeth",

@@ -43,18 +43,21 @@ class MapResults(Result, MapReport):
         return self._speeds([saw.flutter_rpm for saw in self.saws])
 
     def to_xarray(self) -> xr.Dataset:
-        """The map as labelled arrays, ``lowest_critical_rpm``, ``flutter_rpm`` and ``state``, over the
+        """The map as labelled arrays, ``lowest_critical_rpm``, ``flutter_rpm``, ``answer`` and ``cause``, over the
         paths of the axes; needs xarray."""
         with extra("xarray"):
             import xarray as xr
 
         axes = [self.x] if self.y is None else [self.y, self.x]
         names = [axis.path for axis in axes]
-        states = [saw.state or "" for saw in self.saws]
+        verdicts = [saw.verdict for saw in self.saws]
+        answers = [(v.answer if v else None) or "" for v in verdicts]
+        causes = [(v.cause if v else None) or "" for v in verdicts]
         variables = {
             "lowest_critical_rpm": (names, self.lowest_critical_rpm, {"units": "rpm"}),
             "flutter_rpm": (names, self.flutter_rpm, {"units": "rpm"}),
-            "state": (names, np.reshape(np.array(states), self.shape)),
+            "answer": (names, np.reshape(np.array(answers), self.shape)),
+            "cause": (names, np.reshape(np.array(causes), self.shape)),
         }
         coordinates = {
             axis.path: (axis.path, axis.values, {"units": axis.unit, "long_name": axis.name})

@@ -50,7 +50,7 @@ def test_every_point_of_the_chart_is_one_of_the_report(report: sf.CampbellResult
         (b.from_rpm, b.to_rpm) for b in report.bands
     )
     assert report.operating is not None and report.operating.safe_window_rpm is not None
-    (window,) = (i for i in upper.items if isinstance(i, Line) and i.name.startswith("usable speeds"))
+    (window,) = (i for i in upper.items if isinstance(i, Line) and i.name.startswith("window without"))
     assert window.x.tolist() == list(report.operating.safe_window_rpm) and not window.y.any()
     uprights = [item.x for item in upper.items if isinstance(item, Upright)]
     assert set(report.critical_rpm.tolist()) <= set(uprights)
@@ -252,8 +252,8 @@ def test_bands_are_drawn_in_full_and_limits_by_name(
     shapes = report.plot().layout.shapes
     assert len(shapes) >= len(report.bands) and {shape.opacity for shape in shapes} == {1.0}
     check = draft.check(operating_rpm=1250, min_critical_rpm=1600)
-    words = {True: "PASS", False: "FAIL"}
-    names = [f"{words[of.passed]} {of.name}: {of.finding}" for of in check.criteria]
+    words = {"yes": "PASS", "at_risk": "RISK", "no": "FAIL"}
+    names = [f"{words[of.answer]} {of.name}: {of.finding}" for of in check.verdict.limits]
     rows = [note.text for note in check.plot().layout.annotations if note.text.startswith("<b>")]
     assert rows == [f"<b>{name}</b>" for name in names]
     assert set(names) <= {text.get_text() for text in check.plot_matplotlib().texts}

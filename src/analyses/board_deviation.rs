@@ -40,11 +40,15 @@ pub struct BoardDeviation {
 impl BoardDeviation {
     /// The deflection of the saw of an analysis at a speed. Unknown unless the saw is stable there.
     pub(crate) fn of(analysis: &Analysis, speed_rad_per_s: f64) -> Self {
-        let scene = &analysis.scene;
-        let rpm = rpm(speed_rad_per_s);
+        let judged = Judged::of(analysis, speed_rad_per_s);
+        Self::of_judged(&analysis.scene, analysis.model.plate.resolution, &judged)
+    }
+
+    /// The deflection of a saw that was judged on a basis.
+    pub(crate) fn of_judged(scene: &Scene, own: Resolution, judged: &Judged) -> Self {
+        let rpm = rpm(judged.speed_rad_per_s);
         let force = scene.constant_force_at(rpm);
         let by_contact = is_in_contact(scene);
-        let judged = Judged::of(analysis, speed_rad_per_s);
         let refused = if by_contact {
             judged.not_stable()
         } else {
@@ -52,10 +56,7 @@ impl BoardDeviation {
         };
         let found = match refused {
             Some(reason) => Err(reason.to_owned()),
-            None => {
-                let own = analysis.model.plate.resolution;
-                at_cut_m(scene, own, &sawing_plate(scene, own, rpm), rpm)
-            }
+            None => at_cut_m(scene, own, &sawing_plate(scene, own, rpm), rpm),
         };
         let (deflection_m, unknown) = match found {
             Ok(m) => (Some(m), None),

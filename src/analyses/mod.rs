@@ -26,4 +26,5 @@ pub(crate) mod scene_number;
 pub mod size;
 pub mod study;
 pub mod tradeoff;
+pub mod verdict;
 pub mod washboard;

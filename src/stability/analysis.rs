@@ -15,6 +15,7 @@ use super::excitation::{Crossing, crossings};
 use super::expected_work::ExpectedWork;
 use super::heat::HeatLimits;
 use super::ladder::next_smaller;
+use super::listed_band::ListedBand;
 use super::listed_pair::Listed;
 use super::onsets::Onsets;
 use super::options::AnalysisOptions;
@@ -173,7 +174,7 @@ impl Analysis {
             basis_error,
             complete_to_rad_per_s,
         } = chosen;
-        options.report(&critical, range, None);
+        options.report(&critical, range, None, true);
         let mut model = SpectralModel::with_critical(saw, critical, range, Strategy::Reduced)?;
         let depth = Depth::of(scene.accuracy());
         let mut searched_again = false;
@@ -364,13 +365,21 @@ impl Analysis {
     }
 
     pub(crate) fn evidence<'a>(&'a self, critical_rad_per_s: &'a [f64]) -> Evidence<'a> {
-        let estimates = self.estimates.iter().flat_map(|found| &found.bands);
+        let threshold_per_s = self.scene.flutter_threshold_per_s();
+        // Without estimates of the bands nothing is known of their edges' errors, and none is asked for.
+        let estimates = self.estimates.as_ref().map(|found| &found.bands);
+        let error = |index: usize| match estimates.and_then(|bands| bands.get(index)) {
+            Some(estimate) => estimate.speed,
+            None => Some(0.0),
+        };
+        let bands = self.chart.instabilities.iter().enumerate();
         Evidence {
-            bands: &self.chart.instabilities,
+            bands: bands
+                .map(|(index, band)| ListedBand::new(band, threshold_per_s, error(index)))
+                .collect(),
             has_failed: self.chart.certificate.has_failed(),
-            edge_errors: estimates.map(|error| error.speed).collect(),
             critical_rad_per_s,
-            threshold_per_s: self.scene.flutter_threshold_per_s(),
+            threshold_per_s,
             range_rad_per_s: self.range_rad_per_s,
             covered_to_rad_per_s: self
                 .scene

@@ -30,6 +30,7 @@ mod hidden_growth;
 mod instability_kind;
 mod interpolation;
 mod ladder;
+mod listed_band;
 mod listed_pair;
 #[cfg(test)]
 mod material_damping_tests;
@@ -73,6 +74,7 @@ pub(crate) use growing_modes::GrowingModes;
 pub use heat::{HeatCurve, HeatLimit, HeatLimits};
 pub use instability_kind::InstabilityKind;
 pub(crate) use ladder::{DENSE_LADDER, LADDER, ahead, diameters_beyond, resolution};
+pub use listed_band::ListedBand;
 pub use mode_counts::MiscountedModes;
 pub use onsets::Onsets;
 #[doc(hidden)]
@@ -89,6 +91,5 @@ pub(crate) use undamped::Depth;
 #[doc(hidden)]
 pub use undamped::undamped_bands;
 pub use undecided::Edge;
-pub(crate) use undecided::{edges, undecided};
 pub(crate) use verdict::{CRITICAL_MARGIN, critical_at, flutter_onsets};
 pub use verdict::{Evidence, StabilityState, Verdict};

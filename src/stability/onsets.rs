@@ -11,6 +11,7 @@ use super::undamped::{SEARCH_SPEEDS, undamped_bands};
 use super::verdict::flutter_onsets;
 use crate::model::plate::Resolution;
 use crate::model::scene::{Scene, SpeedRange};
+use crate::model::system::GyroscopicSystem;
 use crate::modes::{Assembled, NamedCriticalSpeed, SpectralModel, Strategy};
 
 /// Onset speeds, equal to those of an [`Analysis`](super::Analysis) to nine digits.
@@ -28,6 +29,8 @@ pub struct Onsets {
     pub first_merge_rad_per_s: Option<f64>,
     /// Results of the checks of the bands; empty if no search was needed.
     pub certificate: Certificate,
+    /// Whether nothing holds some rigid motion of the blade.
+    pub has_free_motions: bool,
     /// Number of functions of the basis.
     pub functions: usize,
     /// Estimated relative error of the critical speeds within the range.
@@ -72,6 +75,7 @@ impl Onsets {
         let critical_rad_per_s: Vec<f64> = critical.iter().map(|c| c.speed_rad_per_s).collect();
         let lowest_critical = critical_rad_per_s.first().copied();
         let functions = saw.plate.degrees_of_freedom();
+        let has_free_motions = GyroscopicSystem::has_free_motions(&saw.plate);
         // Without damping there are no bands to search for if the blade is free, because its waves are
         // uncoupled, or if the range ends below the first critical speed, because no wave is reflected
         // there.
@@ -98,6 +102,7 @@ impl Onsets {
             first_merge_rad_per_s: first_merge,
             instabilities: found.instabilities,
             certificate: found.certificate,
+            has_free_motions,
             functions,
             estimated_relative_error,
         })

@@ -35,6 +35,8 @@ pub struct Interim<'a> {
     pub range_rad_per_s: SpeedRange,
     /// Every band within the range; `None` before they are computed.
     pub bands: Option<&'a [Instability]>,
+    /// Whether something holds every rigid motion of the blade; meaningless before the bands are known.
+    pub is_held: bool,
 }
 
 impl AnalysisOptions<'_> {
@@ -44,12 +46,14 @@ impl AnalysisOptions<'_> {
         critical: &[NamedCriticalSpeed],
         range_rad_per_s: SpeedRange,
         bands: Option<&[Instability]>,
+        is_held: bool,
     ) {
         if let Some(receive) = self.interim {
             receive(Interim {
                 critical,
                 range_rad_per_s,
                 bands,
+                is_held,
             });
         }
     }

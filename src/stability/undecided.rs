@@ -18,6 +18,11 @@ impl Edge {
     fn reach(&self) -> f64 {
         self.error.unwrap_or(UNKNOWN * self.speed)
     }
+
+    /// The speeds for which the edge leaves open on which side they are.
+    pub(crate) fn open(&self) -> [f64; 2] {
+        [self.speed - self.reach(), self.speed + self.reach()]
+    }
 }
 
 /// The edges of a band that counts within some stretches of it. The ends of the sweep are no edges, and neither are the speeds at which

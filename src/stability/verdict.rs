@@ -17,8 +17,9 @@ use serde::{Deserialize, Serialize};
 use super::band::{CurvePoint, Instability};
 use super::instability_kind::InstabilityKind;
 use super::interpolation::Cubic;
+use super::listed_band::ListedBand;
 use super::root::share_of_zero;
-use super::undecided::{Edge, edges, undecided};
+use super::undecided::{Edge, undecided};
 use crate::model::scene::SpeedRange;
 use crate::modes::smallest;
 
@@ -91,11 +92,9 @@ pub struct Verdict {
 #[derive(Debug, Clone)]
 pub struct Evidence<'a> {
     /// Every band within the range.
-    pub bands: &'a [Instability],
+    pub bands: Vec<ListedBand>,
     /// Whether the search for the bands failed, see [`Certificate::has_failed`](super::Certificate::has_failed).
     pub has_failed: bool,
-    /// Estimated relative errors of the edges of each band, `None` for unknown ones; empty if none was estimated.
-    pub edge_errors: Vec<Option<f64>>,
     /// Critical speeds, ascending, in rad/s, including those next to the range.
     pub critical_rad_per_s: &'a [f64],
     /// Smallest growth rate of flutter that counts, in 1/s; divergence always counts.
@@ -118,12 +117,12 @@ impl Evidence<'_> {
     pub fn verdict(&self, speed_rad_per_s: f64) -> Verdict {
         let around = |range: &SpeedRange| range.contains(speed_rad_per_s);
         let counted = self.bands.iter().enumerate().filter_map(|(index, band)| {
-            let stretches = band.counted(self.threshold_per_s);
-            Some((index, band, stretches.into_iter().find(around)?))
+            let stretch = band.counted.iter().find(|stretch| around(stretch))?;
+            Some((index, band, *stretch))
         });
-        let rank = |band: &Instability| {
+        let rank = |band: &ListedBand| {
             let diverges = band.kind == InstabilityKind::Divergence;
-            (diverges, band.growth_or_peak(speed_rad_per_s))
+            (diverges, band.peak_growth_per_s)
         };
         let worst = counted.max_by(|(_, x, _), (_, y, _)| {
             let (x, y) = (rank(x), rank(y));
@@ -153,12 +152,8 @@ impl Evidence<'_> {
     /// The edges of the bands that count, in rad/s.
     fn edges(&self) -> impl Iterator<Item = Edge> {
         let sweep = self.range_rad_per_s.ends();
-        let known = self.bands.iter().zip(&self.edge_errors);
-        known.flat_map(move |(band, error)| {
-            let counted = band.counted(self.threshold_per_s).into_iter();
-            let stretches = counted.map(|stretch| stretch.ends());
-            edges(band.range().ends(), stretches, *error, sweep)
-        })
+        let bands = self.bands.iter();
+        bands.flat_map(move |band| band.counted_edges(sweep))
     }
 
     /// Range of speeds around a speed without an instability that counts, in rad/s, within the sweep and at
@@ -172,7 +167,7 @@ impl Evidence<'_> {
         let counted = self
             .bands
             .iter()
-            .flat_map(|b| b.counted(self.threshold_per_s));
+            .flat_map(|band| band.counted.iter().copied());
         let beside = |speed: &f64| {
             let margin = CRITICAL_MARGIN * speed;
             SpeedRange::new(speed - margin, speed + margin)
@@ -269,12 +264,6 @@ impl Instability {
         let lambda = || c64::new(growth_between(pair, share), from + share * (to - from));
         inside.contains(&speed_rad_per_s).then(lambda)
     }
-
-    /// Growth rate at a speed, or that of the peak for an undamped blade, in 1/s.
-    fn growth_or_peak(&self, speed_rad_per_s: f64) -> f64 {
-        self.growth_at(speed_rad_per_s)
-            .unwrap_or(self.peak_growth_per_s)
-    }
 }
 
 /// Re λ at a share of the way between two points of a curve.
@@ -336,11 +325,11 @@ mod tests {
         }
     }
 
-    fn evidence<'a>(bands: &'a [Instability], critical: &'a [f64]) -> Evidence<'a> {
+    fn evidence<'a>(bands: &[Instability], critical: &'a [f64]) -> Evidence<'a> {
+        let listed = |band| ListedBand::new(band, 0.25, Some(0.0));
         Evidence {
-            bands,
+            bands: bands.iter().map(listed).collect(),
             has_failed: false,
-            edge_errors: Vec::new(),
             critical_rad_per_s: critical,
             threshold_per_s: 0.25,
             range_rad_per_s: SpeedRange::new(0.0, 300.0),

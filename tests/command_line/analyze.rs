@@ -91,8 +91,8 @@ fn the_summary_fits_a_terminal_and_says_what_matters() {
         format!("{:.2}", run.report.modes_at_rest[0].frequency_hz),
         format!("{critical:.1}"),
         format!("Flutter speed: {flutter:.0} rpm"),
-        format!("the limit is 85 % ({:.0} rpm)", 0.85 * critical),
-        "STABLE, but above the usual limit".to_owned(),
+        format!("run it up to {:.0} rpm (85 %", (0.85 * critical).floor()),
+        "AT RISK: 118 % of the first critical speed".to_owned(),
         "1800 rpm".to_owned(),
     ] {
         assert!(text.contains(&expected), "no {expected:?} in:\n{text}");

@@ -49,15 +49,18 @@ fn a_check_draws_its_limits_where_it_is_asked_to() {
     let printed: CheckReport = serde_json::from_str(text(&output.stdout)).unwrap();
     assert_eq!(printed, written::<CheckReport>(&folder, "check.json"));
     let kept: Vec<_> = printed
-        .criteria
+        .verdict
+        .limits
         .iter()
-        .map(|c| (c.key.as_str(), c.passed))
+        .map(|c| (c.key.as_str(), c.is_kept()))
         .collect();
     let expected = [
-        ("margin", true),
         ("operating", true),
+        ("critical", true),
+        ("margin", true),
         ("min_flutter", false),
         ("rim_speed", true),
+        ("held", true),
     ];
     assert_eq!(kept, expected);
     assert!(!printed.passed && printed.critical_speeds_rpm.len() == 6);

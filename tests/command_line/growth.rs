@@ -5,6 +5,7 @@
 use sawflutter::analyses::campbell::{InstabilityKind, Verdict};
 use sawflutter::analyses::cut::{CutReport, CutVerdict};
 use sawflutter::analyses::runup::RunUpReport;
+use sawflutter::analyses::verdict::Answer;
 use sawflutter::model::scene::{Accuracy, CutSpeedFile, Scene, SceneFile};
 use sawflutter::stability::Analysis;
 use serde_json::Value;
@@ -39,11 +40,12 @@ fn a_cut_is_as_bad_as_the_worst_of_its_rows() {
             let grows = growths.iter().any(|growth| *growth >= threshold);
             assert_eq!(run.verdict == CutVerdict::Unstable, grows, "{growths:?}");
             let word = match run.verdict {
-                CutVerdict::Unstable => "UNSTABLE",
-                CutVerdict::AtCritical => "STABLE, but within 5 %",
-                _ => "stable",
+                CutVerdict::Unstable => "NO: growth of",
+                CutVerdict::AtCritical => "AT RISK: within 5 %",
+                _ if run.answer == Answer::AtRisk => "AT RISK: no vibration grows, but",
+                _ => "YES: no vibration grows",
             };
-            let line = format!("{} rpm: {word}", run.rpm);
+            let line = format!("Can it cut at {} rpm? {word}", run.rpm);
             assert!(summary.contains(&line), "{line} is not in {summary}");
             let rows: Vec<f64> = run.criteria.iter().map(|row| row.growth_per_s).collect();
             assert_eq!(rows, growths);
@@ -94,15 +96,17 @@ fn a_cut_that_deflects_the_blade_beyond_the_model_is_not_called_stable() {
         let (verdict, headline) = if leaves {
             (
                 CutVerdict::LeavesModel,
-                "NO GROWTH, BUT THE DEFLECTION LEAVES",
+                "no vibration grows, but the deflection exceeds",
             )
         } else {
-            (CutVerdict::Stable, "stable")
+            // 1800 rpm are 122 % of the first critical speed in the cut.
+            (CutVerdict::Stable, "no vibration grows, but 12")
         };
         assert_eq!(report.runs[0].verdict, verdict);
         assert_eq!(report.runs[0].certificate.growing_modes, 0);
+        let words = summary.split_whitespace().collect::<Vec<_>>().join(" ");
         assert!(
-            summary.contains(&format!("{rpm} rpm: {headline}")),
+            words.contains(&format!("{rpm} rpm? AT RISK: {headline}")),
             "{summary}"
         );
     }

@@ -15,3 +15,4 @@ mod numbers;
 mod place;
 mod size;
 mod study;
+mod verdict;

@@ -7,6 +7,7 @@ use crate::common::{assert_close, says, scene};
 use sawflutter::analyses::check::{Limits, check};
 use sawflutter::analyses::door::{CommandError, CommandOptions};
 use sawflutter::analyses::size::{Options, SizeReport};
+use sawflutter::analyses::verdict::Criterion;
 use sawflutter::model::scene::{Accuracy, LimitsFile, Scene, Setting};
 
 /// A free blade, whose lateral rigid motions have no stiffness, does not pass a check; pads that are soft hold it, and change its
@@ -50,7 +51,7 @@ fn refused(scene: &Scene, vary: &[(&str, Option<(f64, f64)>)], points: usize) ->
 fn first_critical_rpm(scene: &Scene) -> f64 {
     let limits = Limits::of(scene, 100.0).unwrap();
     let report = check(scene, &limits).unwrap();
-    let margin = report.criteria.iter().find(|of| of.key == "margin");
+    let margin = report.verdict.limits.iter().find(|of| of.key == "margin");
     margin.unwrap().found_rpm.unwrap()
 }
 
@@ -97,7 +98,7 @@ fn a_blade_is_as_thick_stiff_and_light_as_its_critical_speed_requires() {
         assert_eq!(*free, None);
         let answer = report.answer.unwrap();
         assert!((window.from..=window.to).contains(&answer.value));
-        assert!(answer.criteria.iter().all(|criterion| criterion.passed));
+        assert!(answer.verdict.limits.iter().all(Criterion::is_kept));
     }
     // The speed itself: 85 % of the first critical speed.
     let report = sized(&saw, "operating_rpm", Some((100.0, 3.0 * 600.0 / needed)));
@@ -145,9 +146,10 @@ fn every_end_of_a_range_is_one_for_a_check() {
             let limits = Limits::of(&made, 1300.0).unwrap();
             check(&made, &limits)
                 .unwrap()
-                .criteria
+                .verdict
+                .limits
                 .iter()
-                .all(|of| of.passed)
+                .all(Criterion::is_kept)
         };
         let mut ends = 0;
         for window in &report.windows {

@@ -11,7 +11,7 @@ BRIEF = {"runup.to_rpm": 2600, "runup.duration_s": 6}
 PADS = ["--force", "2", "--max-deviation", "0.3mm", "--oscillating-force", "0.5", "--friction", "0.2"]
 QUICK_PLACE = ["--free", "guides[0].radius_m=0.195..0.205", "--samples", "3", "--refine", "4"]
 THICKNESS = ["--x", "blade.thickness_m=2.6mm..3mm", "--points", "3"]
-SIZED = ["--accuracy", "draft", "--points", "5", "--rpm", "1300"]
+SIZED = ["--points", "5", "--rpm", "1300"]
 STUDY = {
     "name": "two numbers",
     "parameters": [

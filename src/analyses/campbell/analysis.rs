@@ -11,6 +11,7 @@ use super::in_cut::InCut;
 use super::membrane::BladeStress;
 use super::modes::{RestMode, Whirl};
 use super::speeds::{CriticalSpeed, InstabilityBand, OperatingPoint};
+use crate::analyses::verdict::Verdict;
 use crate::model::scene::{Accuracy, SceneFile};
 use crate::modes::SpectrumError;
 use crate::stability::{Analysis, Sensitivity};
@@ -60,7 +61,9 @@ pub struct Report {
     /// them.
     #[serde(default)]
     pub excitation: Option<ExcitationLines>,
-    /// Comparison of the operating speed with the 85 % rule, if the scene has an operating speed.
+    /// Whether the saw can run at its operating speed.
+    pub verdict: Verdict,
+    /// Motions at the operating speed, if the scene has one.
     pub operating: Option<OperatingPoint>,
     /// Modes at one speed, on request.
     pub whirl: Option<Whirl>,

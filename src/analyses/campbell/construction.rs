@@ -16,11 +16,12 @@ use super::modes::{HarmonicShape, HarmonicShare, RestMode};
 use super::remarks::{terms, warnings};
 use super::speeds::{CriticalSpeed, InstabilityBand, OperatingPoint};
 use crate::analyses::board_deviation::BoardDeviation;
-use crate::analyses::check::side_force_factor;
+use crate::analyses::check::{judged, side_force_factor};
 use crate::model::plate::Plate;
-use crate::model::scene::{LimitsFile, rpm};
+use crate::model::scene::{SpeedRange, rad_per_s, rpm};
 use crate::modes::{DescribedMode, EventName, EventWaves, WorkCounters};
-use crate::stability::{Analysis, Evidence, Instability, InstabilityKind};
+use crate::motion::stretched_blade::{Rise, saturations};
+use crate::stability::{Analysis, Evidence, Instability, InstabilityKind, ListedBand};
 
 /// Harmonics with a smaller share of the kinetic energy are omitted from a mode at rest.
 const LEAST_SHARE: f64 = 1e-4;
@@ -50,6 +51,9 @@ impl Analysis {
         let at_rest = &analysis.modes_at_rest;
         let warnings = warnings(scene, analysis, &certificate, at_rest, critical.len());
         let resolution = model.plate.resolution;
+        let operating = scene.operating_rad_per_s();
+        let operating = operating.map(|speed| at_operating_speed(analysis, speed));
+        let amplitudes = limited_amplitudes(analysis);
         Report {
             sawflutter: env!("CARGO_PKG_VERSION").to_owned(),
             scene: scene.file().clone(),
@@ -64,9 +68,14 @@ impl Analysis {
             flutter_speed_rpm: analysis.flutter_speed_rad_per_s.map(rpm),
             first_merge_rpm: analysis.first_merge_rad_per_s.map(rpm),
             flutter_threshold_per_s: scene.flutter_threshold_per_s(),
-            operating: scene
-                .operating_rad_per_s()
-                .map(|speed| operating(analysis, speed)),
+            verdict: judged(
+                analysis,
+                &scene.limits(),
+                operating.as_ref().and_then(|at| at.deviation.as_ref()),
+                scene.operating_rad_per_s(),
+                &amplitudes,
+            ),
+            operating,
             in_cut: InCut::new(analysis),
             excitation: ExcitationLines::new(scene, &self.crossings, &branches),
             whirl: None,
@@ -277,6 +286,7 @@ impl InstabilityBand {
             branches: Vec::new(),
             modes: Vec::new(),
             counted_rpm: Vec::new(),
+            felt_rpm: Vec::new(),
             saturated_amplitude_m: None,
             amplitude_not_computed: None,
             estimated_relative_error: None,
@@ -287,13 +297,28 @@ impl InstabilityBand {
     /// A band, with the range in which its growth exceeds the threshold.
     pub(crate) fn new(band: &Instability, threshold_per_s: f64) -> Self {
         let counted = band.counted(threshold_per_s).into_iter();
+        let felt = band.felt(threshold_per_s).into_iter();
         InstabilityBand {
             closed: band.closed,
             peak_rpm: rpm(band.peak_rad_per_s),
             peak_growth_per_s: band.peak_growth_per_s,
             frequency_hz: band.frequency_rad_per_s / TAU,
             counted_rpm: counted.map(|range| range.ends().map(rpm)).collect(),
+            felt_rpm: felt.map(|range| range.ends().map(rpm)).collect(),
             ..Self::between(band.kind, [band.from_rad_per_s, band.to_rad_per_s].map(rpm))
+        }
+    }
+
+    /// The band as a verdict sees it.
+    pub(crate) fn listed(&self) -> ListedBand {
+        let range = |[from, to]: [f64; 2]| SpeedRange::new(rad_per_s(from), rad_per_s(to));
+        ListedBand {
+            kind: self.kind,
+            range: range([self.from_rpm, self.to_rpm]),
+            counted: self.counted_rpm.iter().copied().map(range).collect(),
+            felt: self.felt_rpm.iter().copied().map(range).collect(),
+            peak_growth_per_s: self.peak_growth_per_s,
+            edge_error: self.estimated_relative_error,
         }
     }
 
@@ -315,13 +340,8 @@ impl InstabilityBand {
 }
 
 impl OperatingPoint {
-    /// Verdict at a speed, without the modes there.
-    pub(crate) fn from_evidence(
-        evidence: &Evidence<'_>,
-        speed_rad_per_s: f64,
-        limits: &LimitsFile,
-    ) -> Self {
-        let limit = limits.margin();
+    /// Results at a speed, without the modes there.
+    pub(crate) fn from_evidence(evidence: &Evidence<'_>, speed_rad_per_s: f64) -> Self {
         let critical = evidence.critical_rad_per_s;
         let of_lowest_critical = critical.first().map(|lowest| speed_rad_per_s / lowest);
         let verdict = evidence.verdict(speed_rad_per_s);
@@ -330,9 +350,7 @@ impl OperatingPoint {
             rpm: rpm(speed_rad_per_s),
             lowest_critical_rpm: critical.first().copied().map(rpm),
             of_lowest_critical,
-            limit,
-            within_limit: of_lowest_critical.map(|ratio| ratio <= limit),
-            verdict: verdict.state,
+            stability: verdict.state,
             inside_instability: verdict.band,
             at_critical_rpm: verdict.critical.map(|place| rpm(critical[place])),
             side_force_factor: None,
@@ -345,7 +363,15 @@ impl OperatingPoint {
     }
 }
 
-fn operating(analysis: &Analysis, speed_rad_per_s: f64) -> OperatingPoint {
+/// Amplitudes of the bands of flutter, if the scene limits them; empty where they cannot be computed.
+fn limited_amplitudes(analysis: &Analysis) -> Vec<Rise> {
+    if analysis.scene.limits().max_amplitude_m.is_none() {
+        return Vec::new();
+    }
+    saturations(analysis).unwrap_or_default()
+}
+
+fn at_operating_speed(analysis: &Analysis, speed_rad_per_s: f64) -> OperatingPoint {
     let critical = analysis.critical_rad_per_s();
     let fastest = analysis.fastest_operating;
     OperatingPoint {
@@ -353,11 +379,7 @@ fn operating(analysis: &Analysis, speed_rad_per_s: f64) -> OperatingPoint {
         frequency_hz: fastest.map(|lambda| lambda.im.abs() / TAU),
         side_force_factor: side_force_factor(analysis, speed_rad_per_s),
         deviation: Some(BoardDeviation::of(analysis, speed_rad_per_s)),
-        ..OperatingPoint::from_evidence(
-            &analysis.evidence(&critical),
-            speed_rad_per_s,
-            &analysis.scene.limits(),
-        )
+        ..OperatingPoint::from_evidence(&analysis.evidence(&critical), speed_rad_per_s)
     }
 }
 

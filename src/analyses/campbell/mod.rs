@@ -58,11 +58,10 @@ pub use self::modes::{
     ComplexNumbers, HarmonicShape, HarmonicShare, ModeHarmonic, ModeShape, RestMode, Whirl,
     WhirlMode,
 };
-pub use self::outline::Answer;
-pub(crate) use self::outline::{answer, caution, checks, outline, sharper, too_close};
 #[cfg(feature = "page")]
-pub(crate) use self::outline::{deciding, headline, usable};
-pub(crate) use self::remarks::{lifting_off, near_critical, side_force_in_words};
+pub(crate) use self::outline::usable;
+pub(crate) use self::outline::{answer, caution, checks, outline};
+pub(crate) use self::remarks::{lifting_off, side_force_in_words};
 pub use self::speeds::{CriticalSpeed, InstabilityBand, OperatingPoint};
 pub use self::verdict::Verdict;
 pub use self::vtu::{VTK_NAMES, VtkFile};

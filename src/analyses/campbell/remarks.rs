@@ -6,7 +6,7 @@ use crate::model::plate::{MembraneSource, Plate};
 use crate::model::scene::{Blade, Bore, Guide, PadLaw, Scene, SceneFile, rpm};
 use crate::modes::DescribedMode;
 use crate::page::text::{shown, shown_to};
-use crate::stability::{Analysis, CHARTED, CRITICAL_MARGIN, Shortened, is_cut_short, usual_end};
+use crate::stability::{Analysis, CHARTED, Shortened, is_cut_short, usual_end};
 
 use super::certificate::BandCertificate;
 use super::pad_places::{beside_the_blade, overlapping};
@@ -17,12 +17,6 @@ const LEAST_DIGITS: f64 = 1e-6;
 
 /// Stiffness of the stiffest pad in the trials that calibrated the error estimate.
 const CALIBRATED_N_PER_M: f64 = 1e9;
-
-/// Says that a speed is close to a critical speed.
-pub fn near_critical(critical_rpm: f64) -> String {
-    let margin = 100.0 * CRITICAL_MARGIN;
-    format!("within {margin:.0} % of the critical speed {critical_rpm:.1} rpm")
-}
 
 /// How far a side force at the cut deflects the blade at a speed, from the factor of
 /// [`OperatingPoint::side_force_factor`](super::OperatingPoint::side_force_factor); `None` without a factor.

@@ -5,6 +5,7 @@ use super::{
     BandCertificate, BasisAccuracy, BranchCurve, CampbellDiagram, CriticalSpeed, Direction,
     InstabilityBand, InstabilityKind, Report, RootLoci, RootPath, SolveCounts,
 };
+use crate::analyses::verdict::Verdict;
 use crate::model::scene::{
     Accuracy, BladeFile, GuideFile, Material, Measured, MeasuredRow, Mount, SceneFile,
 };
@@ -63,6 +64,16 @@ pub fn empty_report(name: &str) -> Report {
         flutter_speed_rpm: None,
         first_merge_rpm: None,
         flutter_threshold_per_s: 0.25,
+        verdict: Verdict {
+            answer: None,
+            rpm: None,
+            cause: None,
+            reason: "the scene has no operating_rpm".to_owned(),
+            allowed_to_rpm: None,
+            allowed_by: None,
+            windows_rpm: Vec::new(),
+            limits: Vec::new(),
+        },
         operating: None,
         whirl: None,
         shapes: Vec::new(),
@@ -165,6 +176,7 @@ pub fn band(kind: InstabilityKind, from: f64, to: f64, growth: f64, hz: f64) -> 
         name: None,
         branches: Vec::new(),
         modes: Vec::new(),
+        felt_rpm: Vec::new(),
         counted_rpm: vec![[from, to]],
         saturated_amplitude_m: None,
         amplitude_not_computed: None,

@@ -58,6 +58,9 @@ pub struct InstabilityBand {
     /// undamped blade as a whole if its largest growth reaches the threshold, of a damped one where its
     /// growth does.
     pub counted_rpm: Vec<[f64; 2]>,
+    /// The same for a hundredth of the threshold: outside these intervals a growth is not felt.
+    #[serde(default)]
+    pub felt_rpm: Vec<[f64; 2]>,
     /// Amplitude to which flutter rises from a small motion at the speed of largest growth, limited by
     /// stretching, without damping; up to 1.41 times as large near one edge of the band. Null unless
     /// requested, for divergence, if only damping makes the blade flutter, and if it was not computed.
@@ -75,7 +78,7 @@ pub struct InstabilityBand {
     pub estimated_relative_growth_error: Option<f64>,
 }
 
-/// Comparison of the operating speed with the first critical speed.
+/// Motions at the operating speed; `verdict` judges them.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 #[schemars(rename = "OperatingEntry")]
@@ -87,12 +90,8 @@ pub struct OperatingPoint {
     pub lowest_critical_rpm: Option<f64>,
     /// Ratio of operating speed to first critical speed; null if the blade has no critical speed.
     pub of_lowest_critical: Option<f64>,
-    /// Usual limit of that ratio, 0.85.
-    pub limit: f64,
-    /// Whether the ratio is at most the limit; null without a ratio.
-    pub within_limit: Option<bool>,
-    /// Whether the saw is stable at that speed.
-    pub verdict: StabilityState,
+    /// Whether a motion grows at that speed.
+    pub stability: StabilityState,
     /// Index into `instabilities` of the band that makes it unstable.
     pub inside_instability: Option<usize>,
     /// Speed at which a band begins or ends, if it is so close to the operating speed that its estimated error leaves open on which side

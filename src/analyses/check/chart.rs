@@ -1,6 +1,8 @@
 //! Limits and results of a check, each in its own row over a common axis of speeds, and the stiffness of the rim.
 
-use super::{CheckReport, Criterion};
+use super::CheckReport;
+use super::outline::in_one_word;
+use crate::analyses::verdict::Criterion;
 use crate::page::figure::chart_data::{AxisData, ChartData, PanelData};
 use crate::page::figure::items::{Band, Item, Line, Points, Role, Shape, Upright};
 use crate::page::figure::palette::Hue;
@@ -18,8 +20,7 @@ const RESULT_SIZE: f64 = 12.0;
 
 /// Rows of the limits, and the stiffness of the rim, as numbers.
 pub fn chart(report: &CheckReport) -> ChartData {
-    let verdict = if report.passed { "passed" } else { "failed" };
-    let title = format!("{}: check {verdict}", report.scene.name);
+    let title = format!("{}: {}", report.scene.name, report.verdict.in_table());
     let speed = AxisData::speed().within([0.0, last_shown_rpm(report)]);
     let panels = vec![limits(report, &speed), stiffness(report, &speed)];
     ChartData {
@@ -32,7 +33,7 @@ pub fn chart(report: &CheckReport) -> ChartData {
 /// be beyond the sweep.
 fn last_shown_rpm(report: &CheckReport) -> f64 {
     let of_criterion = |c: &Criterion| c.asked_rpm.max(c.found_rpm.unwrap_or(0.0));
-    let criteria = report.criteria.iter().map(of_criterion);
+    let criteria = report.verdict.limits.iter().map(of_criterion);
     let marks = criteria.chain([report.operating_rpm]).fold(0.0, f64::max);
     report.to_rpm.max(1.03 * marks)
 }
@@ -43,7 +44,7 @@ fn facts(report: &CheckReport) -> Vec<String> {
     let facts = [
         report.condition.clone(),
         format!("operating speed {:.0} rpm", report.operating_rpm),
-        format!("margin {:.0} %", 100.0 * report.margin),
+        format!("margin {:.0} %", 100.0 * report.limits.margin()),
         report.rim_stiffness_in_words(),
     ];
     unusual.into_iter().chain(facts).collect()
@@ -81,15 +82,15 @@ fn limits(report: &CheckReport, speed: &AxisData) -> PanelData {
         .instabilities
         .iter()
         .map(|band| Item::Band(Band::new(band, [0.0, last])));
-    let rows = (1..).map(f64::from).zip(&report.criteria);
+    let rows = (1..).map(f64::from).zip(&report.verdict.limits);
     let names = rows.clone().map(|(row, criterion)| {
-        let word = if criterion.passed { "PASS" } else { "FAIL" };
+        let word = in_one_word(criterion);
         (
             row,
             format!("{word} {}: {}", criterion.name, criterion.finding),
         )
     });
-    let count = report.criteria.len() as f64;
+    let count = report.verdict.limits.len() as f64;
     let criteria = rows.flat_map(|(row, criterion)| of_criterion(criterion, row, last));
     PanelData {
         share: ROW * (count + 0.2),
@@ -105,7 +106,7 @@ fn limits(report: &CheckReport, speed: &AxisData) -> PanelData {
 
 /// The result as a disc, the difference as a bar, and the limit as a short vertical line.
 fn of_criterion(criterion: &Criterion, row: f64, last: f64) -> Vec<Item> {
-    let hue = if criterion.passed {
+    let hue = if criterion.is_kept() {
         Hue::Forward
     } else {
         Hue::Alarm
@@ -214,7 +215,7 @@ fn key() -> Vec<Item> {
 mod tests {
     use super::*;
     use crate::analyses::check::{Limits, check};
-    use crate::model::scene::{Accuracy, Scene, SweepFile, rad_per_s};
+    use crate::model::scene::{Accuracy, LimitsFile, Scene, SweepFile, rad_per_s};
     use crate::page::figure::layout::sheet;
     use crate::page::figure::tidiness::texts;
 
@@ -223,14 +224,17 @@ mod tests {
         let paper = Scene::paper();
         let scene = paper.edited(|saw| saw.accuracy = Accuracy::Draft).unwrap();
         let limits = Limits {
-            min_flutter_rad_per_s: Some(rad_per_s(2800.0)),
-            min_critical_rad_per_s: Some(rad_per_s(1500.0)),
+            limits: LimitsFile {
+                min_flutter_rpm: Some(2800.0),
+                min_critical_rpm: Some(1500.0),
+                ..LimitsFile::default()
+            },
             ..Limits::at(rad_per_s(1250.0))
         };
         let sheet = sheet(&chart(&check(&scene, &limits).unwrap()));
         let said = texts(&sheet);
         let with = |start: &str| said.iter().filter(|text| text.starts_with(start)).count();
-        assert_eq!((with("PASS "), with("FAIL ")), (4, 1), "{said:?}");
+        assert_eq!((with("PASS "), with("FAIL ")), (6, 1), "{said:?}");
         assert_eq!(with("operating 1250"), 1, "{said:?}");
     }
 
@@ -248,7 +252,7 @@ mod tests {
             .unwrap();
         let limits = Limits::at(rad_per_s(1250.0));
         let report = check(&scene, &limits).unwrap();
-        let found = report.criteria.iter().filter_map(|c| c.found_rpm);
+        let found = report.verdict.limits.iter().filter_map(|c| c.found_rpm);
         let highest = found.fold(0.0, f64::max);
         assert!(highest > report.to_rpm, "{highest}");
         let sheet = sheet(&chart(&report));

@@ -2,11 +2,11 @@
 //!
 //! ```
 //! use sawflutter::prelude::*;
-//! use sawflutter::model::scene::rad_per_s;
+//! use sawflutter::model::scene::{LimitsFile, rad_per_s};
 //!
 //! let scene = Scene::paper().edited(|saw| saw.accuracy = Accuracy::Draft)?;
 //! let limits = Limits {
-//!     min_critical_rad_per_s: Some(rad_per_s(1500.0)),
+//!     limits: LimitsFile { min_critical_rpm: Some(1500.0), ..LimitsFile::default() },
 //!     ..Limits::at(rad_per_s(1250.0))
 //! };
 //! let report = sawflutter::check(&scene, &limits)?;
@@ -23,27 +23,23 @@ mod report;
 mod rim;
 mod static_deflection;
 
-use faer::Scale;
-
 use crate::analyses::board_deviation::BoardDeviation;
-use crate::analyses::campbell::{
-    InstabilityBand, Numbered, add_amplitudes, lifting_off, near_critical,
-};
+use crate::analyses::campbell::{InstabilityBand, Numbered, add_amplitudes, lifting_off};
 use crate::analyses::deflect::PointLoad;
 use crate::model::scene::{Scene, SceneError, SpeedRange, rpm};
 use crate::modes::SpectrumError;
 use crate::motion::stretched_blade::StretchedError;
 use crate::motion::stretched_blade::{Rise, saturations};
-use crate::motion::transient::lateral_load;
 use crate::stability::{Analysis, AnalysisError, check_stretch};
 pub(crate) use outline::outline;
 
-use criteria::{of_gaps, without_stiffness};
+use criteria::lateral;
+pub(crate) use criteria::{judged, of_deflection, of_deviation, verdict};
 pub use limits::Limits;
 use limits::Reach;
 pub use options::Options;
 pub(crate) use options::{MARGIN, MAX_AMPLITUDE, MAX_RIM, MIN_FLUTTER};
-pub use report::{CheckReport, Criterion, RimStiffness};
+pub use report::{CheckReport, RimStiffness};
 pub(crate) use rim::{
     Judged, point_load_plate, rim_at_cut, rim_stiffness_at_rest_n_per_m, side_force_factor,
 };
@@ -79,27 +75,23 @@ pub fn check(scene: &Scene, limits: &Limits) -> Result<CheckReport, CheckError> 
     let lowest_critical = critical.first().copied();
     let operating = limits.operating_rad_per_s;
     let is_stiff = lowest_critical.is_none_or(|lowest| operating < lowest);
-    let lateral = scene.cut().and_then(|cut| {
-        let run = cut.at_rpm(rpm(operating)).ok()?;
-        let load = lateral_load(plate, &cut.teeth.standing());
-        (run.lateral_n != 0.0).then(|| Scale(run.lateral_n) * load)
-    });
+    let lateral = lateral(scene, plate, operating);
     let bending =
         lowest_critical.and_then(|critical| StaticDeflection::new(plate, angle, lateral, critical));
-    let mut criteria = limits.criteria(&analysis.evidence(&critical), scene.accuracy());
-    criteria.push(limits.of_rim(plate.blade.outer_radius_m));
-    let of_gaps = of_gaps(scene, plate, bending.as_ref(), operating);
-    let warnings = warnings(analysis, limits, of_gaps.len());
-    criteria.extend(of_gaps);
-    let saturations = match limits.max_amplitude_m {
+    let saturations = match limits.limits.max_amplitude_m {
         None => Vec::new(),
         Some(_) => saturations(analysis)?,
     };
-    criteria.extend(limits.of_amplitude(analysis, &saturations));
     let deviation = BoardDeviation::of(analysis, operating);
-    criteria.extend(limits.of_deviation(&deviation));
-    let is_free = analysis.model.has_free_motions();
-    criteria.extend(is_free.then(|| without_stiffness(operating)));
+    let verdict = judged(
+        analysis,
+        &limits.limits,
+        Some(&deviation),
+        Some(operating),
+        &saturations,
+    );
+    let compared_gaps = verdict.limits.iter().filter(|of| of.key == "gap").count();
+    let warnings = warnings(analysis, limits, compared_gaps);
     // Nothing resists a side force where rigid motions are free, or where K(Ω) is singular.
     let side_force = PointLoad::new(plate, rim_at_cut(scene));
     let stiffness = |speed: f64| {
@@ -116,9 +108,8 @@ pub fn check(scene: &Scene, limits: &Limits) -> Result<CheckReport, CheckError> 
         unusual_numbers: limits.unusual_numbers(scene),
         accept_unusual: limits.accept_unusual,
         passed: false,
-        criteria,
+        verdict,
         operating_rpm: rpm(operating),
-        margin: limits.margin,
         to_rpm: rpm(to_rad_per_s),
         critical_speeds_rpm: critical
             .into_iter()
@@ -135,8 +126,7 @@ pub fn check(scene: &Scene, limits: &Limits) -> Result<CheckReport, CheckError> 
         side_force_factor: side_force_factor(analysis, operating),
         deviation: Some(deviation),
         rim_speed_m_per_s: operating * scene.blade().outer_radius_m,
-        max_rim_m_per_s: limits.max_rim_m_per_s,
-        max_amplitude_m: limits.max_amplitude_m,
+        limits: limits.limits,
         estimated_relative_error: analysis.estimated_relative_error,
         warnings,
     };
@@ -190,10 +180,6 @@ fn warnings(analysis: &Analysis, limits: &Limits, compared_gaps: usize) -> Vec<S
     let scene = &analysis.scene;
     let mut warnings: Vec<String> = lifting_off(scene).into_iter().collect();
     let operating = limits.operating_rad_per_s;
-    if let Some(critical_rpm) = analysis.critical_rpm_at(operating) {
-        let near = near_critical(critical_rpm);
-        warnings.push(format!("the operating speed is {near}"));
-    }
     let gaps = scene.file().guides.iter().filter(|g| g.gap_m.is_some());
     if gaps.count() > compared_gaps {
         warnings.push(
@@ -214,7 +200,15 @@ fn warnings(analysis: &Analysis, limits: &Limits, compared_gaps: usize) -> Vec<S
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::model::scene::{Accuracy, rad_per_s};
+    use crate::model::scene::{Accuracy, LimitsFile, rad_per_s};
+
+    /// A lower limit of the flutter speed.
+    fn asked(min_flutter_rpm: f64) -> LimitsFile {
+        LimitsFile {
+            min_flutter_rpm: Some(min_flutter_rpm),
+            ..LimitsFile::default()
+        }
+    }
 
     /// The rim is stretched by a tenth at Ωb = √(0.1 E/ρ). The sweep of a check goes on to 1.02/0.85 times the operating speed.
     #[test]
@@ -234,7 +228,7 @@ mod tests {
         );
         assert!(operating.starts_with(&said), "{operating}");
         let flutter = message(&Limits {
-            min_flutter_rad_per_s: Some(rad_per_s(4000.0)),
+            limits: asked(4000.0),
             ..Limits::at(rad_per_s(300.0))
         });
         let said = format!(
@@ -255,14 +249,16 @@ mod tests {
             .unwrap();
         let analysis = Analysis::new(&scene).unwrap();
         let limits = |asked_rpm: f64| Limits {
-            min_flutter_rad_per_s: Some(rad_per_s(asked_rpm)),
+            limits: asked(asked_rpm),
             ..Limits::at(rad_per_s(300.0))
         };
         let near = check(&scene, &limits(400.0)).unwrap();
         let end_rpm = rpm(analysis.range_rad_per_s.to_rad_per_s);
         assert_eq!(near.to_rpm, end_rpm);
         let flutter = analysis.flutter_speed_rad_per_s.unwrap();
-        assert_eq!(near.criteria[2].found_rpm, Some(rpm(flutter)));
+        let mut found = near.verdict.limits.iter();
+        let asked = found.find(|limit| limit.key == "min_flutter").unwrap();
+        assert_eq!(asked.found_rpm, Some(rpm(flutter)));
         let asked_rpm = 1.1 * end_rpm;
         assert!(check(&scene, &limits(asked_rpm)).unwrap().to_rpm > asked_rpm);
     }

@@ -5,7 +5,8 @@ use serde::{Deserialize, Serialize};
 
 use crate::analyses::board_deviation::BoardDeviation;
 use crate::analyses::campbell::InstabilityBand;
-use crate::model::scene::SceneFile;
+use crate::analyses::verdict::Verdict;
+use crate::model::scene::{LimitsFile, SceneFile};
 
 /// A comparison of a saw with limits.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -25,14 +26,12 @@ pub struct CheckReport {
     /// Whether a saw with unusual numbers may pass.
     #[serde(default)]
     pub accept_unusual: bool,
-    /// Whether every limit is kept and unusual numbers are absent or accepted.
+    /// Whether the answer is yes, and unusual numbers are absent or accepted.
     pub passed: bool,
-    /// Every limit.
-    pub criteria: Vec<Criterion>,
+    /// Whether the saw can run at the operating speed, with every limit.
+    pub verdict: Verdict,
     /// Operating speed.
     pub operating_rpm: f64,
-    /// Largest ratio of the operating speed to the first critical speed.
-    pub margin: f64,
     /// Last speed of the sweep; results are limited to it.
     pub to_rpm: f64,
     /// Critical speeds within the sweep, ascending.
@@ -57,11 +56,8 @@ pub struct CheckReport {
     pub rim_stiffness: RimStiffness,
     /// Rim speed at the operating speed.
     pub rim_speed_m_per_s: f64,
-    /// Limit of the rim speed.
-    pub max_rim_m_per_s: f64,
-    /// Limit of the amplitude of flutter, if there is one.
-    #[serde(default)]
-    pub max_amplitude_m: Option<f64>,
+    /// Limits that the scene and the options set.
+    pub limits: LimitsFile,
     /// Estimated relative error of the critical speeds.
     pub estimated_relative_error: Option<f64>,
     /// Remarks on the validity of the result.
@@ -80,34 +76,15 @@ pub struct RimStiffness {
     pub n_per_m: Vec<f64>,
 }
 
-/// One limit and its result.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
-#[schemars(rename = "CriterionEntry")]
-pub struct Criterion {
-    /// Short name of the limit, for programs.
-    pub key: String,
-    /// Requirement in words.
-    pub name: String,
-    /// Result in words.
-    pub finding: String,
-    /// Speed that was found: the critical or flutter speed itself, or the speed above which another limit is
-    /// exceeded; null if it exceeds the sweep.
-    pub found_rpm: Option<f64>,
-    /// Speed with which the found one is compared.
-    pub asked_rpm: f64,
-    /// Whether the limit is kept.
-    pub passed: bool,
-}
-
 impl CheckReport {
     /// Unusual numbers, unless they are accepted, and limits that are not kept, for assertions.
     pub fn failures(&self) -> Vec<String> {
         let refused = self.unusual_numbers.iter().filter(|_| !self.accept_unusual);
         let failed = self
-            .criteria
+            .verdict
+            .limits
             .iter()
-            .filter(|criterion| !criterion.passed)
+            .filter(|criterion| !criterion.is_kept())
             .map(|criterion| format!("{}: {}", criterion.name, criterion.finding));
         refused.cloned().chain(failed).collect()
     }

@@ -100,6 +100,7 @@ fn of_report(label: String, report: Report) -> ComparedSaw {
         critical_speeds: report.critical_speeds,
         instabilities: report.instabilities,
         flutter_speed_rpm: report.flutter_speed_rpm,
+        verdict: report.verdict,
         operating: report.operating,
         rim_stiffness_at_rest_n_per_m: None,
         estimated_relative_error: report.accuracy.estimated_relative_error,

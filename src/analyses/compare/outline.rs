@@ -1,7 +1,6 @@
 //! The text of a comparison.
 
 use super::{CompareReport, ComparedSaw};
-use crate::analyses::campbell::Answer;
 use crate::page::outline::{Column, Outline, SPEED, Table, Value, shortened};
 use crate::page::text::fixed;
 
@@ -16,11 +15,11 @@ pub fn outline(report: &CompareReport) -> Outline {
         Column::of("flutter", &SPEED),
         Column::words("bands"),
         Column::words("rim stiff.").in_unit("N/mm"),
-        Column::words("verdict"),
+        Column::words(heading(report)),
     ];
     let mut table = Table::new("", columns).showing(usize::MAX);
     for (place, saw) in report.saws.iter().enumerate() {
-        table.row(row(place + 1, saw));
+        table.row(row(place + 1, saw, common_rpm(report).is_some()));
         if let (true, Some(first)) = (place > 0, report.saws.first()) {
             table.row(changes(first, saw));
         }
@@ -41,10 +40,29 @@ pub fn outline(report: &CompareReport) -> Outline {
     text
 }
 
-fn row(number_of_saw: usize, saw: &ComparedSaw) -> [Value; 6] {
-    let verdict = saw.operating.as_ref().map(|operating| {
-        let answer = Answer::new(operating).in_few_words();
-        format!("{}: {answer}", operating.rpm.round())
+/// The operating speed of all saws, if they have one in common.
+fn common_rpm(report: &CompareReport) -> Option<f64> {
+    let first = report.saws.first()?.verdict.rpm?;
+    let mut others = report.saws.iter();
+    let is_common = others.all(|saw| saw.verdict.rpm == Some(first));
+    is_common.then_some(first)
+}
+
+fn heading(report: &CompareReport) -> String {
+    match common_rpm(report) {
+        Some(rpm) => format!("at {} rpm", rpm.round()),
+        None => "verdict".to_owned(),
+    }
+}
+
+fn row(number_of_saw: usize, saw: &ComparedSaw, is_common: bool) -> [Value; 6] {
+    let verdict = saw.verdict.rpm.map(|rpm| {
+        let answer = saw.verdict.in_table();
+        if is_common {
+            answer
+        } else {
+            format!("{}: {answer}", rpm.round())
+        }
     });
     let stiffness = saw.rim_stiffness_at_rest_n_per_m;
     [

@@ -4,6 +4,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use crate::analyses::campbell::{CampbellDiagram, CriticalSpeed, InstabilityBand, OperatingPoint};
+use crate::analyses::verdict::Verdict;
 use crate::model::scene::SceneFile;
 
 /// Report of a comparison (`compare.json`).
@@ -38,7 +39,9 @@ pub struct ComparedSaw {
     pub instabilities: Vec<InstabilityBand>,
     /// Lowest speed at which flutter counts.
     pub flutter_speed_rpm: Option<f64>,
-    /// Operating speed, and whether the saw is stable there.
+    /// Whether the saw can run at its operating speed.
+    pub verdict: Verdict,
+    /// Motions at its operating speed.
     pub operating: Option<OperatingPoint>,
     /// Lateral stiffness of a point of the rim at the middle of the cut, at rest; null if the blade has free rigid
     /// motions, and for a saw whose report was given instead of its scene.

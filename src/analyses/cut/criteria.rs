@@ -7,6 +7,7 @@ use super::history::CutHistory;
 use super::record::Growth;
 use super::spline::SplineOrbit;
 use crate::analyses::campbell::Verdict;
+use crate::analyses::verdict::Answer;
 use crate::model::scene::Scene;
 
 /// Verdict of a cut.
@@ -151,6 +152,25 @@ impl Verdict {
 }
 
 impl CutVerdict {
+    /// Whether the saw can run in this cut, in which the rim deflects this far, and its speed keeps the limit of its ratio to the first
+    /// critical speed or not.
+    pub(super) fn answer(
+        self,
+        scene: &Scene,
+        largest_deflection_m: Option<f64>,
+        keeps_margin: bool,
+    ) -> Answer {
+        let thickness_m = scene.blade().thickness_range_m()[0];
+        let is_wide = largest_deflection_m.is_some_and(|found_m| found_m > thickness_m);
+        match self {
+            CutVerdict::Unstable => Answer::No,
+            _ if !keeps_margin && scene.limits().margin.is_some() => Answer::No,
+            CutVerdict::AtCritical | CutVerdict::LeavesModel => Answer::AtRisk,
+            CutVerdict::Stable if is_wide || !keeps_margin => Answer::AtRisk,
+            CutVerdict::Stable => Answer::Yes,
+        }
+    }
+
     pub(super) fn new(growth: Verdict, leaves_model: bool, is_critical: bool) -> Self {
         match growth {
             Verdict::Unstable => CutVerdict::Unstable,

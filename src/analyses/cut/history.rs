@@ -5,7 +5,7 @@ use faer::Col;
 use crate::model::plate::Plate;
 use crate::model::scene::{CutRun, Point};
 use crate::model::system::GyroscopicSystem;
-use crate::modes::{Assembled, SpectrumError};
+use crate::modes::{Assembled, SpectrumError, smallest};
 use crate::motion::transient::{
     Deflections, Gauge, Integrator, Propagator, ReducedBlade, SAMPLES, Sinusoid, State,
     TransientError, damped_sinusoids, fitted_growth, lateral_load,
@@ -25,6 +25,8 @@ pub(super) struct CutHistory {
     pub growing: [GrowingModes; 2],
     /// Critical speed within 5 % of the speed, of the saw in the cut or without the forces; of several, the nearest.
     pub critical_rad_per_s: Option<f64>,
+    /// First critical speed of either, if it is so low that the speed breaks the limit of their ratio.
+    pub first_critical_rad_per_s: Option<f64>,
     /// Eigenvalues in a cut with the tangential force that follows from the power.
     pub in_cut_by_power: Option<Growth>,
     /// Growth fitted to the deflection in the cut; `None` without a lateral force.
@@ -72,11 +74,16 @@ impl CutHistory {
     }
 }
 
-/// Computes eigenvalues and time history at one speed of a cut.
+/// Computes eigenvalues and time history at one speed of a cut; `margin` is the largest allowed ratio of the speed to the first critical
+/// one.
 ///
 /// # Errors
 /// [`TransientError`].
-pub(super) fn cut_history(saw: &SawInCut<'_>, probe: Point) -> Result<CutHistory, TransientError> {
+pub(super) fn cut_history(
+    saw: &SawInCut<'_>,
+    probe: Point,
+    margin: f64,
+) -> Result<CutHistory, TransientError> {
     let SawInCut {
         plate, cut, run, ..
     } = saw;
@@ -104,11 +111,13 @@ pub(super) fn cut_history(saw: &SawInCut<'_>, probe: Point) -> Result<CutHistory
     let gauge = Gauge::new(plate, &saw.blade, probe);
     let sinusoids = sinusoids_in_cut(saw, &gauge, in_cut)?;
     let critical = [
-        critical_near(plate, speed)?,
-        critical_near(&saw.cutting, speed)?,
+        critical_near(plate, speed, margin)?,
+        critical_near(&saw.cutting, speed, margin)?,
     ]
     .concat();
+    let first = smallest(critical.iter().copied(), |speed| *speed);
     Ok(CutHistory {
+        first_critical_rad_per_s: first.filter(|first| speed > margin * first),
         critical_rad_per_s: critical_at(&critical, speed).map(|place| critical[place]),
         growing,
         in_cut_by_power: by_power.transpose()?,
@@ -119,9 +128,13 @@ pub(super) fn cut_history(saw: &SawInCut<'_>, probe: Point) -> Result<CutHistory
     })
 }
 
-/// Critical speeds up to slightly above a speed; none of a saw that has no stiffness at rest under the forces.
-fn critical_near(plate: &Plate, speed_rad_per_s: f64) -> Result<Vec<f64>, SpectrumError> {
-    let end = speed_rad_per_s / (1.0 - CRITICAL_MARGIN);
+/// Critical speeds up to slightly above a speed, or so far that the ratio to them is at least a margin; none of a saw that has no stiffness at rest under the forces.
+fn critical_near(
+    plate: &Plate,
+    speed_rad_per_s: f64,
+    margin: f64,
+) -> Result<Vec<f64>, SpectrumError> {
+    let end = speed_rad_per_s / margin.min(1.0 - CRITICAL_MARGIN);
     match Assembled::from(plate.clone()).critical_speeds(Some(&|_| end)) {
         Ok(found) => Ok(found.iter().map(|c| c.speed_rad_per_s).collect()),
         Err(SpectrumError::UnstableAtRest { .. } | SpectrumError::Buckled { .. }) => Ok(Vec::new()),

@@ -160,7 +160,7 @@ impl Cutting<'_> {
         let (scene, cut) = (self.scene, self.cut);
         let saw = SawInCut::new(&self.plate, cut, run)?;
         self.parts.advance();
-        let history = cut_history(&saw, scene.probe())?;
+        let history = cut_history(&saw, scene.probe(), scene.limits().margin())?;
         self.parts.advance();
         let loads = tooth_passing(&saw, scene.probe(), self.stages)?;
         let tooth_passing = loads.found;
@@ -184,12 +184,15 @@ impl Cutting<'_> {
         let forces_to_s = cut.idle_s + run.duration_s;
         let [in_cut_m, after_m] = history.largest_deflections_m(forces_to_s);
         let by_power = run.tangential_of_power_n.zip(history.in_cut_by_power);
+        let verdict = CutVerdict::new(decision.verdict, leaves_model, at_critical_rpm.is_some());
         Ok(CutAtSpeed {
             rpm: run.rpm,
+            answer: verdict.answer(scene, in_cut_m, history.first_critical_rad_per_s.is_none()),
+            past_critical_rpm: history.first_critical_rad_per_s.map(rpm),
             tangential_n_per_tooth: run.tangential_n,
             radial_n_per_tooth: run.radial_n,
             lateral_n_per_tooth: run.lateral_n,
-            verdict: CutVerdict::new(decision.verdict, leaves_model, at_critical_rpm.is_some()),
+            verdict,
             at_critical_rpm,
             decided_by: decision.by,
             criteria,

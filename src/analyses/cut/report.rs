@@ -8,6 +8,7 @@ use super::{
     VerdictMap,
 };
 use crate::analyses::campbell::Verdict;
+use crate::analyses::verdict::Answer;
 use crate::model::scene::SceneFile;
 
 /// Report of a cut (`cut.json`).
@@ -55,6 +56,12 @@ pub struct CutAtSpeed {
     pub radial_n_per_tooth: f64,
     /// Force across the blade on each tooth.
     pub lateral_n_per_tooth: f64,
+    /// Whether the saw can run in the cut: no if a vibration grows; at risk at a critical speed, at more than 85 % of the first one, and where the rim moves by more than the
+    /// thickness of the blade or the deflection leaves the model.
+    pub answer: Answer,
+    /// First critical speed, of the saw in the cut or out of it, if the speed is more than the allowed share of it; else null.
+    #[serde(default)]
+    pub past_critical_rpm: Option<f64>,
     /// The worst of the criteria; if no vibration grows, whether the deflection stays within the model, and the speed
     /// away from critical speeds.
     pub verdict: CutVerdict,
@@ -140,7 +147,7 @@ impl CutAtSpeed {
 }
 
 impl CutReport {
-    /// Whether the cut is stable at all its speeds.
+    /// Whether nothing grows and the deflection stays within the model, at all speeds.
     pub(crate) fn is_stable(&self) -> bool {
         let mut runs = self.runs.iter();
         runs.all(|run| run.verdict == CutVerdict::Stable)

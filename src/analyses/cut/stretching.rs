@@ -268,7 +268,7 @@ mod tests {
                     ..cut.at_rpm(rpm).unwrap()
                 };
                 let saw = SawInCut::new(&plate, &cut, &run).unwrap();
-                cut_history(&saw, Scene::paper().probe()).unwrap()
+                cut_history(&saw, Scene::paper().probe(), 0.85).unwrap()
             });
             let [linear, stretched] = records.each_ref().map(|r| largest(&r.record.deflection_m));
             assert!(linear > 1e-10);

@@ -45,7 +45,7 @@ fn the_paper_saw_is_stable_at_1800_and_flutters_at_2800() {
     let history_at = |rpm: f64| {
         let (cut, run) = (paper_cut(), run_at(rpm));
         let saw = SawInCut::new(&plate, &cut, &run).unwrap();
-        cut_history(&saw, probe).unwrap()
+        cut_history(&saw, probe, 0.85).unwrap()
     };
     let quiet = history_at(1800.0);
     assert_eq!(quiet.in_cut().growth_per_s, 0.0);
@@ -77,7 +77,7 @@ fn few_motions_make_the_record_of_the_full_model() {
     let plate = paper_plate(SMALL);
     let (cut, run) = (paper_cut(), run_at(2800.0));
     let probe = Scene::paper().probe();
-    let history = cut_history(&SawInCut::new(&plate, &cut, &run).unwrap(), probe).unwrap();
+    let history = cut_history(&SawInCut::new(&plate, &cut, &run).unwrap(), probe, 0.85).unwrap();
     let system = GyroscopicSystem::of_plate(&plate.in_cut(&cut, &run));
     let mut load: Col<f64> = Col::zeros(system.order());
     for angle in cut.teeth.standing().iter().map(|tooth| tooth.angle_rad) {
@@ -134,7 +134,7 @@ fn collar_history(idle_s: f64) -> (Plate, Cut, CutRun, CutHistory) {
         ..cut.at_rpm(640.0).unwrap()
     };
     let saw = SawInCut::new(&plate, &cut, &run).unwrap();
-    let history = cut_history(&saw, scene.probe()).unwrap();
+    let history = cut_history(&saw, scene.probe(), 0.85).unwrap();
     (plate, cut, run, history)
 }
 

@@ -1,11 +1,10 @@
 //! The text of a map.
 
 use super::{MapAxis, MapReport, MappedSaw};
-use crate::analyses::campbell::sharper;
 use crate::analyses::study::accuracy_of_saws;
+use crate::analyses::verdict::{Answer, Verdict};
 use crate::page::outline::{Column, Outline, PLAIN, SPEED, Table, Value};
 use crate::page::text::{shown, shown_to};
-use crate::stability::{CRITICAL_MARGIN, StabilityState};
 
 /// Number of evenly spaced saws in the table.
 const SAWS: usize = 12;
@@ -24,6 +23,9 @@ pub fn outline(report: &MapReport) -> Outline {
         text.reason(range(axis));
     }
     if report.y.is_none() {
+        if let Some(words) = windows(report) {
+            text.reason(words);
+        }
         text.table(saws_of(report));
     }
     let (error, wrong) = (
@@ -56,44 +58,71 @@ fn verdict(report: &MapReport) -> String {
         return "No saw is judged: the scene has no operating_rpm, and no speed was given (--rpm)"
             .to_owned();
     };
-    let count = |state: StabilityState| {
-        let saws = report.saws.iter();
-        saws.filter(|saw| saw.state == Some(state)).count()
-    };
-    let judged = report.saws.iter().filter(|saw| saw.state.is_some()).count();
-    let at_critical = report
-        .saws
-        .iter()
-        .filter(|saw| saw.state == Some(StabilityState::Stable) && saw.at_critical_rpm.is_some());
-    let critical = match at_critical.count() {
-        0 => String::new(),
-        count => format!(
-            " ({count} of them within {:.0} % of a critical speed)",
-            100.0 * CRITICAL_MARGIN
-        ),
-    };
-    let [stable, divergence, flutter, open, passing] = [
-        StabilityState::Stable,
-        StabilityState::Divergence,
-        StabilityState::Flutter,
-        StabilityState::TooClose,
-        StabilityState::NotCovered,
-    ]
-    .map(count);
-    let open = match open {
-        0 => String::new(),
-        count => format!(
-            ", {count} are too close to the edge of a band to call; {}",
-            sharper(report.scene.accuracy)
-        ),
-    };
-    let passing = match passing {
-        0 => String::new(),
-        count => format!(", {count} are not certain, because slots pass guides"),
-    };
+    let judged: Vec<&Verdict> = verdicts(report).collect();
+    let words = [
+        (Answer::Yes, "can run"),
+        (Answer::AtRisk, "at risk"),
+        (Answer::No, "cannot run"),
+    ];
+    let counts = words.map(|(answer, word)| {
+        let own = judged
+            .iter()
+            .filter(|verdict| verdict.answer == Some(answer));
+        let mut causes: Vec<(&str, usize)> = Vec::new();
+        for cause in own.clone().filter_map(|verdict| verdict.cause.as_deref()) {
+            match causes.iter_mut().find(|(known, _)| *known == cause) {
+                Some((_, count)) => *count += 1,
+                None => causes.push((cause, 1)),
+            }
+        }
+        let of: Vec<String> = causes
+            .iter()
+            .map(|(cause, count)| format!("{} {count}", cause.replace('_', " ")))
+            .collect();
+        let of = match of.as_slice() {
+            [] => String::new(),
+            all => format!(" ({})", all.join(", ")),
+        };
+        format!("{} {word}{of}", own.count())
+    });
     format!(
-        "At {rpm:.0} rpm {stable} of {judged} saws are stable{critical}, {divergence} diverge, {flutter} flutter{open}{passing}"
+        "At {rpm:.0} rpm, of {} saws: {}",
+        judged.len(),
+        counts.join(", ")
     )
+}
+
+fn verdicts(report: &MapReport) -> impl Iterator<Item = &Verdict> {
+    let of_saws = report.saws.iter().filter_map(|saw| saw.verdict.as_ref());
+    of_saws.filter(|verdict| verdict.answer.is_some())
+}
+
+/// Values of the number of which every saw can run: "yes from 2.4 to 3.2 mm".
+fn windows(report: &MapReport) -> Option<String> {
+    report.rpm?;
+    let is_yes = |saw: &&MappedSaw| {
+        let verdict = saw.verdict.as_ref();
+        verdict.and_then(|verdict| verdict.answer) == Some(Answer::Yes)
+    };
+    let runs = report.saws.chunk_by(|x, y| is_yes(&x) == is_yes(&y));
+    let ranges: Vec<String> = runs
+        .filter(|run| run.first().as_ref().is_some_and(is_yes))
+        .map(|run| {
+            let [from, to] = [&run[0], &run[run.len() - 1]].map(|saw| shown_to(5, saw.x));
+            format!("{from} to {to} {}", report.x.unit)
+                .trim_end()
+                .to_owned()
+        })
+        .collect();
+    Some(match ranges.as_slice() {
+        [] => "no saw of the map can run at this speed".to_owned(),
+        all => format!("saws that can run: {} = {}", key(&report.x), all.join(", ")),
+    })
+}
+
+/// Last part of the path of a number.
+fn key(axis: &MapAxis) -> &str {
+    axis.path.rsplit('.').next().unwrap_or(&axis.path)
 }
 
 /// Adds the saws with the lowest and the highest flutter speed and critical speed.
@@ -157,8 +186,7 @@ fn place(report: &MapReport, saw: &MappedSaw) -> String {
     let all = std::iter::once((&report.x, saw.x))
         .chain(y)
         .map(|(axis, value)| {
-            let key = axis.path.rsplit('.').next().unwrap_or(&axis.path);
-            format!("{key} = {} {}", shown_to(5, value), axis.unit)
+            format!("{} = {} {}", key(axis), shown_to(5, value), axis.unit)
                 .trim_end()
                 .to_owned()
         });
@@ -167,29 +195,21 @@ fn place(report: &MapReport, saw: &MappedSaw) -> String {
 
 /// Evenly spaced saws, with the first and the last.
 fn saws_of(report: &MapReport) -> Table {
-    let key = report.x.path.rsplit('.').next().unwrap_or(&report.x.path);
     let columns = [
-        Column::words(key),
+        Column::words(key(&report.x)),
         Column::of("critical", &SPEED),
         Column::of("flutter", &SPEED),
         Column::words("bands"),
-        Column::words("state"),
+        Column::words("verdict"),
     ];
     let last = report.saws.len().saturating_sub(1);
     let count = SAWS.min(report.saws.len());
     let spaced = (0..count).map(|k| k * last / count.saturating_sub(1).max(1));
     let rows = spaced.filter_map(|k| report.saws.get(k)).map(|saw| {
-        let state: Value = match saw.state {
+        let state: Value = match &saw.verdict {
             _ if saw.not_analysed.is_some() => "not analysed".into(),
             None => Value::Missing,
-            Some(StabilityState::Stable) if saw.at_critical_rpm.is_some() => "at critical".into(),
-            Some(StabilityState::Stable) => "stable".into(),
-            Some(StabilityState::Divergence) => "divergence".into(),
-            Some(StabilityState::Flutter) => "flutter".into(),
-            Some(StabilityState::TooClose) => "too close".into(),
-            Some(StabilityState::NotDetermined) => "not determined".into(),
-            Some(StabilityState::NotCovered) => "not certain".into(),
-            Some(StabilityState::OutsideSweep) => "outside sweep".into(),
+            Some(verdict) => verdict.in_table().into(),
         };
         [
             PLAIN.digits(6, saw.x),

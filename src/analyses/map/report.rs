@@ -4,8 +4,8 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use crate::analyses::campbell::InstabilityBand;
+use crate::analyses::verdict::Verdict;
 use crate::model::scene::SceneFile;
-use crate::stability::StabilityState;
 
 /// Report of a map (`map.json`).
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -77,10 +77,8 @@ pub struct MappedSaw {
     pub critical_rpm: Vec<f64>,
     /// Bands of instability within the sweep, by onset.
     pub instabilities: Vec<InstabilityBand>,
-    /// Whether the saw is stable at the speed at which the saws are judged; null without such a speed.
-    pub state: Option<StabilityState>,
-    /// Critical speed within 5 % of that speed; null if there is none.
-    pub at_critical_rpm: Option<f64>,
+    /// Whether the saw can run at the speed at which the saws are judged; null if it was not analysed.
+    pub verdict: Option<Verdict>,
     /// Deflection of the rim at the cut under a constant side force there at that speed, relative to that at rest, as in the
     /// verdict of `analyze`; null without such a speed, unless the saw is stable, and where no verdict gives it.
     #[serde(default)]

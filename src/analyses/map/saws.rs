@@ -4,11 +4,15 @@ use rayon::prelude::*;
 
 use super::contour::contours;
 use super::{Contour, Contoured, Map, MapReport, MappedSaw};
+use crate::analyses::board_deviation::BoardDeviation;
 use crate::analyses::campbell::InstabilityBand;
-use crate::analyses::check::Judged;
+use crate::analyses::check::{Judged, of_deflection};
 use crate::analyses::study::{Found, LogError, Rows, Saw};
-use crate::model::scene::{rad_per_s, rpm};
-use crate::stability::{StabilityState, critical_at, edges, undecided};
+use crate::analyses::verdict::{Judge, Verdict};
+use crate::model::plate::{Plate, Resolution};
+use crate::model::scene::{Scene, SpeedRange, rad_per_s, rpm};
+use crate::model::system::GyroscopicSystem;
+use crate::stability::Evidence;
 
 impl Map {
     /// Reports the saws from their logs.
@@ -52,46 +56,61 @@ impl Map {
         let columns = self.x.values.len();
         let none = Found::default();
         let found = saw.found().unwrap_or(&none);
-        let judged_rpm = self.rpm.filter(|_| saw.found().is_some());
         let end_rpm = rpm(self.study.to_rad_per_s());
         let within = |speed_rpm: &f64| *speed_rpm <= end_rpm;
-        let state = judged_rpm.map(|rpm| match state_at(&found.bands, rpm, end_rpm) {
-            StabilityState::Stable => StabilityState::of_none(rpm, self.covered_to_rpm(saw, found)),
-            state => state,
-        });
-        let at_critical_rpm = judged_rpm
-            .and_then(|rpm| critical_at(&found.critical_rpm, rpm))
-            .map(|place| found.critical_rpm[place]);
-        let judged = judged_rpm.zip(state).map(|(rpm, state)| Judged {
-            speed_rad_per_s: rad_per_s(rpm),
-            state,
-            critical_rad_per_s: at_critical_rpm.map(rad_per_s),
-            estimated_relative_error: Some(found.estimated_relative_error),
-        });
+        let scene = self.study.scene_of(&saw.values).ok();
+        let judged = saw
+            .found()
+            .and(scene)
+            .map(|scene| self.judged(&scene, found));
+        let (verdict, side_force_factor) = judged.unwrap_or_default();
         MappedSaw {
-            side_force_factor: judged.and_then(|judged| self.side_force_factor(saw, &judged)),
+            side_force_factor,
             x: self.x.values[saw.index % columns],
             y: self.y.as_ref().map(|y| y.values[saw.index / columns]),
             lowest_critical_rpm: found.lowest_critical_rpm,
             flutter_speed_rpm: found.flutter_rpm,
-            at_critical_rpm,
             critical_rpm: found.critical_rpm.iter().copied().filter(within).collect(),
             instabilities: found.bands.clone(),
-            state,
+            verdict,
             not_analysed: saw.outcome.reason().map(str::to_owned),
         }
     }
 
-    /// Speed up to which a saw without a band is stable.
-    fn covered_to_rpm(&self, saw: &Saw, found: &Found) -> f64 {
-        let scene = self.study.scene_of(&saw.values);
-        let covered = scene.map(|scene| scene.file().covered_to(found.lowest_critical_rpm));
-        covered.unwrap_or(f64::INFINITY)
-    }
-
-    fn side_force_factor(&self, saw: &Saw, judged: &Judged) -> Option<f64> {
-        let scene = self.study.scene_of(&saw.values).ok()?;
-        judged.side_force_factor(&scene, self.study.basis()?)
+    /// The verdict on a saw, and how far a side force at the cut deflects it relative to rest.
+    fn judged(&self, scene: &Scene, found: &Found) -> (Option<Verdict>, Option<f64>) {
+        let critical = found.critical_rad_per_s();
+        let evidence = Evidence {
+            bands: found.bands.iter().map(InstabilityBand::listed).collect(),
+            has_failed: false,
+            critical_rad_per_s: &critical,
+            threshold_per_s: scene.flutter_threshold_per_s(),
+            range_rad_per_s: SpeedRange::new(0.0, self.study.to_rad_per_s()),
+            covered_to_rad_per_s: scene.file().covered_to(critical.first().copied()),
+        };
+        let basis = self.study.basis();
+        let judge = Judge {
+            found: &evidence,
+            limits: &scene.limits(),
+            rim_radius_m: scene.blade().outer_radius_m,
+            is_held: basis.is_none_or(|basis| !has_free_motions(scene, basis)),
+            accuracy: scene.accuracy(),
+        };
+        let speed = self.rpm.map(rad_per_s);
+        let at_speed = speed.zip(basis).map(|(speed_rad_per_s, basis)| {
+            let own = evidence.verdict(speed_rad_per_s);
+            let judged = Judged {
+                speed_rad_per_s,
+                state: own.state,
+                critical_rad_per_s: own.critical.map(|place| critical[place]),
+                estimated_relative_error: Some(found.estimated_relative_error),
+            };
+            let deviation = BoardDeviation::of_judged(scene, basis, &judged);
+            let further = of_deflection(scene, &judge, &deviation);
+            (further, judged.side_force_factor(scene, basis))
+        });
+        let (further, factor) = at_speed.unwrap_or_default();
+        (Some(judge.verdict(speed, further)), factor)
     }
 
     fn contours(&self, saws: &[MappedSaw]) -> Vec<Contour> {
@@ -113,28 +132,9 @@ impl Map {
     }
 }
 
-/// Whether a saw with these bands is stable at a speed within its sweep from rest to `end_rpm`, decided as [`Evidence::verdict`] does for an
-/// analysis.
-///
-/// [`Evidence::verdict`]: crate::stability::Evidence::verdict
-pub fn state_at(bands: &[InstabilityBand], rpm: f64, end_rpm: f64) -> StabilityState {
-    let edges = bands.iter().flat_map(|band| {
-        let stretches = band.counted_rpm.iter().copied();
-        edges(
-            [band.from_rpm, band.to_rpm],
-            stretches,
-            band.estimated_relative_error,
-            [0.0, end_rpm],
-        )
-    });
-    if undecided(edges, rpm).is_some() {
-        return StabilityState::TooClose;
-    }
-    let around = |[from, to]: &[f64; 2]| (*from..=*to).contains(&rpm);
-    let counted = bands
-        .iter()
-        .filter(|band| band.counted_rpm.iter().any(around));
-    StabilityState::within(counted.map(|band| band.kind))
+/// Whether nothing holds some rigid motion of the blade of a scene.
+fn has_free_motions(scene: &Scene, basis: Resolution) -> bool {
+    GyroscopicSystem::has_free_motions(&Plate::new(scene, basis))
 }
 
 fn warnings(saws: &[MappedSaw]) -> Vec<String> {

@@ -1,8 +1,8 @@
 use super::contour::contours;
-use super::saws::state_at;
 use super::{Contour, Contoured};
 use crate::analyses::campbell::InstabilityBand;
-use crate::stability::{InstabilityKind, StabilityState};
+use crate::model::scene::{SpeedRange, rad_per_s};
+use crate::stability::{Evidence, InstabilityKind, StabilityState};
 
 fn grid(size: usize, value: impl Fn(f64, f64) -> f64) -> Vec<Vec<Option<f64>>> {
     let row = |y: usize| (0..size).map(|x| Some(value(x as f64, y as f64))).collect();
@@ -51,21 +51,32 @@ fn divergence_counts_before_flutter() {
     let flutter = band(InstabilityKind::Flutter, &[[1020.0, 1080.0]]);
     let divergence = band(InstabilityKind::Divergence, &[[1000.0, 1050.0]]);
     let bands = [flutter, divergence];
-    let states = [990.0, 1010.0, 1030.0, 1060.0, 1090.0].map(|rpm| state_at(&bands, rpm, 2000.0));
+    let state_at = |bands: &[InstabilityBand], rpm| {
+        let evidence = Evidence {
+            bands: bands.iter().map(InstabilityBand::listed).collect(),
+            has_failed: false,
+            critical_rad_per_s: &[],
+            threshold_per_s: 0.25,
+            range_rad_per_s: SpeedRange::new(0.0, rad_per_s(2000.0)),
+            covered_to_rad_per_s: f64::INFINITY,
+        };
+        evidence.verdict(rad_per_s(rpm)).state
+    };
     use StabilityState::{Divergence, Flutter, Stable, TooClose};
+    let states = [990.0, 1010.0, 1030.0, 1060.0, 1090.0].map(|rpm| state_at(&bands, rpm));
     assert_eq!(states, [Stable, Divergence, Divergence, Flutter, Stable]);
     // An edge of which the error exceeds the distance.
     let known = bands.map(|band| InstabilityBand {
         estimated_relative_error: Some(0.002),
         ..band
     });
-    let states = [997.0, 999.0, 1001.0, 1003.0].map(|rpm| state_at(&known, rpm, 2000.0));
+    let states = [997.0, 999.0, 1001.0, 1003.0].map(|rpm| state_at(&known, rpm));
     assert_eq!(states, [Stable, TooClose, TooClose, Divergence]);
     // An edge of which the error is unknown.
     let unknown = known.map(|band| InstabilityBand {
         estimated_relative_error: None,
         ..band
     });
-    let states = [985.0, 995.0, 1005.0].map(|rpm| state_at(&unknown, rpm, 2000.0));
+    let states = [985.0, 995.0, 1005.0].map(|rpm| state_at(&unknown, rpm));
     assert_eq!(states, [Stable, TooClose, TooClose]);
 }

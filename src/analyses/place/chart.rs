@@ -315,6 +315,8 @@ mod tests {
         let (x, y) = (vec![0.2, 0.25, 0.3], vec![1e6, 1e7, 1e8]);
         let rows = if y_path.is_some() { 3 } else { 1 };
         PlaceReport {
+            verdict: None,
+            verdict_before: None,
             sawflutter: "0".into(),
             scene: Scene::paper().file().clone(),
             condition: "idling".into(),

@@ -47,6 +47,7 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 use rayon::prelude::*;
 
 use crate::analyses::campbell::{InstabilityBand, statement};
+use crate::analyses::check::verdict;
 use crate::analyses::door::Progress;
 use crate::model::scene::{Freed, Parted, Scene, SceneError, effective, rpm};
 use crate::modes::Cancellation;
@@ -140,11 +141,14 @@ pub fn place(
     let threshold_per_s = placed.flutter_threshold_per_s();
     let listed = |band| InstabilityBand::new(band, threshold_per_s);
     let certificate = &best.computed.certificate;
+    let judged = verdict(&placed);
     let mut report = PlaceReport {
         sawflutter: env!("CARGO_PKG_VERSION").to_owned(),
         scene: placed.file().clone(),
         condition: placed.condition(),
         unusual_numbers: placed.file().unusual_numbers(),
+        verdict: judged.as_ref().ok().cloned(),
+        verdict_before: verdict(scene).ok(),
         goal: demands.goal(),
         min_critical_rpm: demands.min_critical_rad_per_s.map(rpm),
         amplitude_m: demands.gap.and_then(|gap| gap.case.amplitude_m()),
@@ -185,6 +189,10 @@ pub fn place(
         warnings: Vec::new(),
     };
     report.warnings = report.remarks(tally.why.as_deref());
+    if let Err(error) = judged {
+        let word = format!("the best saw could not be judged: {error}");
+        report.warnings.push(word);
+    }
     Ok(report)
 }
 

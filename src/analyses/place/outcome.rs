@@ -4,7 +4,8 @@ use crate::analyses::gap::GapError;
 use crate::model::plate::Resolution;
 use crate::model::scene::{Scene, SpeedRange, rpm};
 use crate::stability::{
-    Certificate, Evidence, Instability, StabilityState, flutter_onsets, resolved, search_bands,
+    Certificate, Evidence, Instability, ListedBand, StabilityState, flutter_onsets, resolved,
+    search_bands,
 };
 
 use super::deviation::operating_deviation_m;
@@ -87,10 +88,13 @@ impl Question {
         let [flutter, _] = flutter_onsets(&bands, threshold);
         let flutter = flutter.map(|onset| onset.speed_rad_per_s);
         let covered_to = scene.file().covered_to(critical_rad_per_s.first().copied());
+        // A search compares saws; the errors of edges are those of the answer's own analysis.
+        let listed = bands
+            .iter()
+            .map(|band| ListedBand::new(band, threshold, Some(0.0)));
         let evidence = Evidence {
-            bands: &bands,
+            bands: listed.collect(),
             has_failed: certificate.has_failed(),
-            edge_errors: Vec::new(),
             critical_rad_per_s: &critical_rad_per_s,
             threshold_per_s: threshold,
             range_rad_per_s: self.range,

@@ -2,6 +2,7 @@
 
 use super::{FragileOptimum, Goal, Neighbour, Outcome, PlaceReport, PlacedParameter};
 use crate::analyses::changed::changed;
+use crate::analyses::verdict::Verdict;
 use crate::page::outline::{Column, Fact, LENGTH, Outline, SPEED, Table};
 use crate::page::text::shown_to;
 
@@ -13,6 +14,13 @@ pub fn outline(report: &PlaceReport) -> Outline {
     );
     if let Some(missed) = report.limits_missed() {
         text.headline(missed);
+    }
+    let named = |verdict: &Option<Verdict>| verdict.as_ref().map(Verdict::in_table);
+    if let (Some(verdict), Some(before)) = (&report.verdict, named(&report.verdict_before)) {
+        text.headline(verdict.headline());
+        if verdict.rpm.is_some() && named(&report.verdict).as_ref() != Some(&before) {
+            text.reason(format!("before: {before}"));
+        }
     }
     let goal = match report.goal {
         Goal::FlutterSpeed => "flutter speed",

@@ -4,6 +4,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use crate::analyses::campbell::InstabilityBand;
+use crate::analyses::verdict::Verdict;
 use crate::model::scene::{Kind, Quantity, SceneFile};
 use crate::page::text::shown_to;
 
@@ -22,6 +23,10 @@ pub struct PlaceReport {
     /// numbers as typed.
     #[serde(default)]
     pub unusual_numbers: Vec<String>,
+    /// Verdict on the saw with the best numbers; null if it could not be analysed, see `warnings`.
+    pub verdict: Option<Verdict>,
+    /// Verdict on the original saw; null if it could not be analysed.
+    pub verdict_before: Option<Verdict>,
     /// The quantity that was maximized.
     pub goal: Goal,
     /// Lower limit of the first critical speed, if there is one.

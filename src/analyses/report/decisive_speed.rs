@@ -5,6 +5,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::analyses::campbell::{Report, Sensitivity};
 use crate::analyses::place::Tolerances;
+use crate::analyses::verdict::MARGIN;
 use crate::model::scene::{Parameter, rpm};
 use crate::stability::Onsets;
 
@@ -19,11 +20,11 @@ pub enum DecidedSpeed {
 }
 
 impl DecidedSpeed {
-    /// The speed that a change of the saw should raise: the flutter speed if the saw runs above the 85 % rule and the effects of changes on
+    /// The speed that a change of the saw should raise: the flutter speed if the saw breaks the 85 % rule and the effects of changes on
     /// it are known, else the first critical speed.
     pub(super) fn to_raise(report: &Report) -> Self {
-        let operating = report.operating.as_ref();
-        let breaks_rule = operating.is_some_and(|operating| operating.within_limit == Some(false));
+        let mut limits = report.verdict.limits.iter();
+        let breaks_rule = limits.any(|limit| limit.key == MARGIN && !limit.is_kept());
         let mut sensitivities = report.sensitivities.iter();
         let is_known = sensitivities.any(|by| DecidedSpeed::Flutter.percent(by).is_some());
         if breaks_rule && is_known {

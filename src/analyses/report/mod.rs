@@ -27,6 +27,7 @@ use serde::{Deserialize, Serialize};
 use super::campbell::{Report, Sensitivity, caution};
 use super::gap::{self, GapError, GapReport, gap};
 use super::response::{self, ResponseReport};
+use super::verdict::Verdict;
 use crate::model::scene::{Scene, SceneFile};
 use crate::stability::Analysis;
 
@@ -46,6 +47,8 @@ pub struct DesignReport {
     pub customer: Option<String>,
     /// Date of the report as typed; null if not given.
     pub date: Option<String>,
+    /// The verdict of the condition with the worse answer, idling or in the cut.
+    pub verdict: Verdict,
     /// Analysis of the idling saw, with sensitivities; the deviation of the board is that of the cut, if there is one.
     pub idling: Report,
     /// Analysis under the forces of the cut, with sensitivities; null for a scene without a cut.
@@ -133,7 +136,12 @@ pub fn report(scene: &Scene, options: &Options) -> Result<DesignReport, DesignEr
         // The board is sawn in the cut.
         operating.deviation = None;
     }
+    let in_cut = cut.map(|(_, report)| report);
+    let verdicts = [Some(&idling), in_cut.as_ref()].into_iter().flatten();
+    let worst = verdicts.map(|report| &report.verdict);
+    let worst = worst.max_by_key(|verdict| verdict.answer).cloned();
     Ok(DesignReport {
+        verdict: worst.unwrap_or_else(|| idling.verdict.clone()),
         sawflutter: idling.sawflutter.clone(),
         scene: scene.file().clone(),
         condition,
@@ -141,7 +149,7 @@ pub fn report(scene: &Scene, options: &Options) -> Result<DesignReport, DesignEr
         customer: options.customer.clone(),
         date: options.date.clone(),
         idling,
-        in_cut: cut.map(|(_, report)| report),
+        in_cut,
         response,
         speeds,
         raised,

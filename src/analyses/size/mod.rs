@@ -184,10 +184,13 @@ fn windows(saws: &[SizedSaw], edges: &[Bracket]) -> Vec<SizedWindow> {
 fn limits(saws: &[SizedSaw]) -> Vec<SizedLimit> {
     let mut limits: Vec<SizedLimit> = Vec::new();
     let reports = || saws.iter().map(|saw| saw.found.as_ref().ok());
-    for criterion in reports().flatten().flat_map(|report| &report.criteria) {
+    for criterion in reports()
+        .flatten()
+        .flat_map(|report| &report.verdict.limits)
+    {
         if limits.iter().all(|limit| limit.key != criterion.key) {
             let of = |report: &CheckReport| {
-                let mut criteria = report.criteria.iter();
+                let mut criteria = report.verdict.limits.iter();
                 let own = criteria.find(|own| own.key == criterion.key)?;
                 margin(report, own)
             };
@@ -234,7 +237,7 @@ fn answer(
         };
         let more = more.ask((1.0 + PERCENT) * value)?.found.ok();
         let critical = |report: &CheckReport| {
-            let mut criteria = report.criteria.iter();
+            let mut criteria = report.verdict.limits.iter();
             criteria.find(|of| of.key == "margin")?.found_rpm
         };
         let deflection =
@@ -245,7 +248,7 @@ fn answer(
             value,
             is_of_scene: value == of_scene,
             scene: scene.file().clone(),
-            criteria: report.criteria.clone(),
+            verdict: report.verdict.clone(),
             first_critical_rpm: critical(report),
             deflection_m: deflection(report),
             critical_rpm_per_percent: change(&critical),

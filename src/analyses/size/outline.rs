@@ -54,10 +54,7 @@ pub fn outline(report: &SizeReport) -> Outline {
         text.sentence(format!(
             "{}{whose} keeps all limits: {}",
             of(report, answer.value),
-            answer
-                .criteria
-                .first()
-                .map_or("", |criterion| criterion.finding.as_str())
+            answer.verdict.reason
         ));
         let critical = answer
             .critical_rpm_per_percent

@@ -3,7 +3,7 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use crate::analyses::check::Criterion;
+use crate::analyses::verdict::Verdict;
 use crate::model::scene::SceneFile;
 
 /// The values of a number with which a saw keeps its limits.
@@ -86,8 +86,8 @@ pub struct SizeAnswer {
     pub is_of_scene: bool,
     /// The scene with this value.
     pub scene: SceneFile,
-    /// Every limit at this value.
-    pub criteria: Vec<Criterion>,
+    /// Whether the saw can run with this value, with every limit.
+    pub verdict: Verdict,
     /// First critical speed at this value; null if there is none.
     pub first_critical_rpm: Option<f64>,
     /// Deflection of the rim at the cut at this value; null if it is unknown.

@@ -1,6 +1,7 @@
 //! A saw with another value of the number, and its distance from its limits.
 
-use crate::analyses::check::{CheckError, CheckReport, Criterion, Limits, check};
+use crate::analyses::check::{CheckError, CheckReport, Limits, check};
+use crate::analyses::verdict::{Answer, Criterion};
 use crate::model::scene::{Freed, Parameter, Scene, SceneError, SweepFile};
 use crate::modes::Cancellation;
 
@@ -75,8 +76,8 @@ impl Question<'_> {
 impl SizedSaw {
     /// Whether all limits are kept.
     pub fn is_kept(&self) -> bool {
-        let criteria = self.found.iter().flat_map(|report| &report.criteria);
-        self.found.is_ok() && criteria.clone().all(|criterion| criterion.passed)
+        let found = self.found.as_ref();
+        found.is_ok_and(|report| report.verdict.answer == Some(Answer::Yes))
     }
 
     /// Smallest distance from a limit, negative if one is not kept.
@@ -84,8 +85,8 @@ impl SizedSaw {
         let Ok(report) = &self.found else {
             return BROKEN;
         };
-        let all = report.criteria.iter().map(|criterion| {
-            let broken = if criterion.passed { 1.0 } else { BROKEN };
+        let all = report.verdict.limits.iter().map(|criterion| {
+            let broken = if criterion.is_kept() { 1.0 } else { BROKEN };
             margin(report, criterion).unwrap_or(broken)
         });
         all.fold(1.0, f64::min)
@@ -97,7 +98,8 @@ impl SizedSaw {
             Ok(report) => report,
             Err(reason) => return Some(reason.clone()),
         };
-        let broken = report.criteria.iter().filter(|criterion| !criterion.passed);
+        let limits = report.verdict.limits.iter();
+        let broken = limits.filter(|criterion| !criterion.is_kept());
         let depth = |criterion: &Criterion| margin(report, criterion).unwrap_or(BROKEN);
         let worst = broken.min_by(|x, y| depth(x).total_cmp(&depth(y)))?;
         Some(format!("{}: {}", worst.name, worst.finding))
@@ -109,7 +111,7 @@ pub fn margin(report: &CheckReport, criterion: &Criterion) -> Option<f64> {
     match criterion.key.as_str() {
         "max_deviation" => {
             let found = report.deviation.as_ref()?.deflection_m?;
-            let limit = report.scene.limits?.max_deviation_m?;
+            let limit = report.limits.max_deviation_m?;
             Some(limit / found - 1.0)
         }
         "margin" | "min_critical" | "min_flutter" | "rim_speed" => {

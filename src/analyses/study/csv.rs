@@ -185,15 +185,17 @@ fn numbers_of(text: &str) -> Option<Vec<f64>> {
 }
 
 /// Bands as text, each with kind, onset and end in rpm, whether both are within the sweep, speed of largest growth in rpm, this
-/// growth in 1/s, frequency in Hz, and the ranges in which it counts: "divergence 1500 1560 true 1530 0.4 0 1500 1560;flutter
-/// 2255.9 2266.1 true 2261 0.1 6.01".
+/// growth in 1/s, frequency in Hz, the ranges in which it counts, and after a bar those in which it is felt: "divergence 1500 1560 true
+/// 1530 0.4 0 1500 1560 | 1500 1560;flutter 2255.9 2266.1 true 2261 0.1 6.01 | 2255.9 2266.1".
 pub(super) fn bands_in_words(bands: &[InstabilityBand]) -> String {
     let band = |band: &InstabilityBand| {
         let (kind, closed) = (band.kind, band.closed);
         let at_peak = [band.peak_rpm, band.peak_growth_per_s, band.frequency_hz];
         let numbers = at_peak.iter().chain(band.counted_rpm.iter().flatten());
         let edges = format!("{kind} {} {} {closed}", band.from_rpm, band.to_rpm);
-        numbers.fold(edges, |text, number| format!("{text} {number}"))
+        let text = numbers.fold(edges, |text, number| format!("{text} {number}"));
+        let felt = band.felt_rpm.iter().flatten();
+        felt.fold(text + " |", |text, number| format!("{text} {number}"))
     };
     bands.iter().map(band).collect::<Vec<_>>().join(";")
 }
@@ -207,10 +209,16 @@ fn bands_of(text: &str) -> Option<Vec<InstabilityBand>> {
             .into_iter()
             .find(|own| own.to_string() == *kind_word)?;
         let edges = [from.parse().ok()?, to.parse().ok()?];
-        let numbers = number_words
-            .iter()
-            .map(|word| word.parse().ok())
-            .collect::<Option<Vec<f64>>>()?;
+        let numbers = |words: &[&str]| {
+            let numbers = words.iter().map(|word| word.parse().ok());
+            numbers.collect::<Option<Vec<f64>>>()
+        };
+        let pairs = |ends: &[f64]| ends.chunks_exact(2).map(|c| [c[0], c[1]]).collect();
+        let bar = number_words.iter().position(|word| *word == "|")?;
+        let (numbers, felt) = (
+            numbers(&number_words[..bar])?,
+            numbers(&number_words[bar + 1..])?,
+        );
         let (&[peak_rpm, peak_growth_per_s, frequency_hz], counted) =
             numbers.split_first_chunk()?;
         Some(InstabilityBand {
@@ -218,7 +226,8 @@ fn bands_of(text: &str) -> Option<Vec<InstabilityBand>> {
             peak_rpm,
             peak_growth_per_s,
             frequency_hz,
-            counted_rpm: counted.chunks_exact(2).map(|c| [c[0], c[1]]).collect(),
+            counted_rpm: pairs(counted),
+            felt_rpm: pairs(&felt),
             ..InstabilityBand::between(kind, edges)
         })
     };

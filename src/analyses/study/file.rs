@@ -42,7 +42,7 @@ pub struct StudyFile {
     pub confidence: f64,
     /// Whether the table lists the bands of instability of each saw, in the column `bands`: kind, onset and end in rpm, whether both
     /// are within the sweep, speed in rpm, growth rate in 1/s and frequency in Hz of the largest growth, and the ranges of speed in
-    /// which the band counts; bands are separated by semicolons.
+    /// which the band counts, and after a bar those in which it is felt; bands are separated by semicolons.
     #[serde(default, skip_serializing_if = "std::ops::Not::not")]
     pub bands: bool,
 }

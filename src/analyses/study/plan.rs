@@ -12,10 +12,11 @@ use super::distribution::Distribution;
 use super::file::{StudyError, StudyFile};
 use super::sequence::even;
 use super::validation::{Counts, Varying, check_statistics, counts, gap, limits, varying};
-use crate::analyses::check::{Criterion, Limits};
+use crate::analyses::check::{Limits, of_deviation};
 use crate::analyses::gap::GapCase;
+use crate::analyses::verdict::{Criterion, Judge};
 use crate::model::plate::Resolution;
-use crate::model::scene::{Parameter, Scene, SceneError, SpeedRange, speed_rad_per_s};
+use crate::model::scene::{Parameter, Scene, SceneError, SpeedRange, rpm, speed_rad_per_s};
 use crate::modes::SpectrumError;
 use crate::stability::{AnalysisError, ChosenBasis, Evidence, end_of_sweep};
 
@@ -77,13 +78,19 @@ impl Study {
         let varying = varying(scene.file(), &file)?;
         let Counts { drawn, count } = counts(&file, &varying)?;
         check_statistics(&file)?;
-        let limits = file.limits.map(|l| limits(&l, &scene)).transpose()?;
+        let asked = file.limits.map(|l| limits(&l, &scene)).transpose()?;
         let gap = file.gap.map(|asked| gap(&asked, &scene)).transpose()?;
         let end = match file.to_rpm {
             Some(rpm) => speed_rad_per_s("to_rpm", rpm)?,
             None => end_of_sweep(&scene)?,
         };
-        let reach = limits.map_or(0.0, |limits| limits.reach().end_rad_per_s);
+        let reach = asked.map_or(0.0, |limits| limits.reach().end_rad_per_s);
+        // A saw with an operating speed is judged there by the limits of its scene.
+        let of_scene = || Some(Limits::of(&scene, scene.file().operating_rpm?));
+        let limits = match asked {
+            Some(limits) => Some(limits),
+            None => of_scene().transpose()?,
+        };
         Ok(Study {
             scene,
             file,
@@ -130,7 +137,7 @@ impl Study {
         &self.file
     }
 
-    /// The limits that each saw has to keep.
+    /// The limits that each saw has to keep; `None` without an operating speed.
     pub fn limits(&self) -> Option<&Limits> {
         self.limits.as_ref()
     }
@@ -214,17 +221,26 @@ impl Study {
     /// The criteria of the limits, evaluated for a saw without any critical speed or band.
     pub(super) fn criteria_of_nothing(&self) -> Vec<Criterion> {
         let nothing = Evidence {
-            bands: &[],
+            bands: Vec::new(),
             has_failed: false,
-            edge_errors: Vec::new(),
             critical_rad_per_s: &[],
             threshold_per_s: 0.0,
             range_rad_per_s: SpeedRange::new(0.0, self.to_rad_per_s),
             covered_to_rad_per_s: f64::INFINITY,
         };
-        let criteria = self
-            .limits
-            .map(|limits| limits.criteria(&nothing, self.scene.accuracy()));
+        let criteria = self.limits.map(|limits| {
+            let judge = Judge {
+                found: &nothing,
+                limits: &limits.limits,
+                rim_radius_m: self.scene.blade().outer_radius_m,
+                is_held: true,
+                accuracy: self.scene.accuracy(),
+            };
+            let operating = limits.operating_rad_per_s;
+            let deviation = of_deviation(&limits.limits, rpm(operating), None);
+            let criteria = judge.criteria(operating).into_iter();
+            criteria.chain(deviation).collect()
+        });
         criteria.unwrap_or_default()
     }
 }

@@ -5,10 +5,13 @@ use std::panic::{AssertUnwindSafe, catch_unwind};
 use serde::{Deserialize, Serialize};
 
 use super::plan::Study;
+use crate::analyses::board_deviation::BoardDeviation;
 use crate::analyses::campbell::InstabilityBand;
+use crate::analyses::check::{Judged, Limits, of_deviation};
 use crate::analyses::gap::{GapError, GapNumbers};
-use crate::model::scene::{Scene, SpeedRange, rpm};
-use crate::stability::{AnalysisError, CRITICAL_MARGIN, Evidence, Onsets};
+use crate::analyses::verdict::{Criterion, Judge};
+use crate::model::scene::{Scene, SpeedRange, rad_per_s, rpm};
+use crate::stability::{AnalysisError, CRITICAL_MARGIN, Evidence, ListedBand, Onsets};
 
 /// A saw and its result.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -90,6 +93,15 @@ impl Outcome {
 }
 
 impl Found {
+    /// Critical speeds, ascending, in rad/s: those listed, or the lowest one beyond the speeds of the study.
+    pub(crate) fn critical_rad_per_s(&self) -> Vec<f64> {
+        let listed = self.critical_rpm.iter().copied();
+        let beyond = self
+            .lowest_critical_rpm
+            .filter(|_| self.critical_rpm.is_empty());
+        listed.chain(beyond).map(rad_per_s).collect()
+    }
+
     /// Whether every limit is kept; `None` without limits.
     pub fn passed(&self) -> Option<bool> {
         (!self.kept.is_empty()).then(|| self.kept.iter().all(|kept| *kept))
@@ -154,6 +166,28 @@ impl Study {
         self.with_onsets(scene, onsets)
     }
 
+    /// The limit of the deflection at the cut; `None` without one.
+    fn deviation(
+        &self,
+        scene: &Scene,
+        evidence: &Evidence<'_>,
+        limits: &Limits,
+        estimated_relative_error: Option<f64>,
+    ) -> Option<Criterion> {
+        limits.limits.max_deviation_m?;
+        let speed_rad_per_s = limits.operating_rad_per_s;
+        let own = evidence.verdict(speed_rad_per_s);
+        let judged = Judged {
+            speed_rad_per_s,
+            state: own.state,
+            critical_rad_per_s: own.critical.map(|place| evidence.critical_rad_per_s[place]),
+            estimated_relative_error,
+        };
+        let basis = self.basis();
+        let found = basis.map(|basis| BoardDeviation::of_judged(scene, basis, &judged));
+        of_deviation(&limits.limits, rpm(speed_rad_per_s), found.as_ref())
+    }
+
     fn with_onsets(&self, scene: &Scene, onsets: Onsets) -> Result<Found, GapError> {
         let certificate = &onsets.certificate;
         if certificate.has_failed() {
@@ -164,12 +198,14 @@ impl Study {
         }
         // Speeds of edges have at least the error of the critical speeds.
         let edge_error = Some(onsets.estimated_relative_error);
+        let threshold_per_s = scene.flutter_threshold_per_s();
+        let listed = onsets.instabilities.iter();
+        let listed = listed.map(|band| ListedBand::new(band, threshold_per_s, edge_error));
         let evidence = Evidence {
-            bands: &onsets.instabilities,
+            bands: listed.collect(),
             has_failed: false,
-            edge_errors: vec![edge_error; onsets.instabilities.len()],
             critical_rad_per_s: &onsets.critical_rad_per_s,
-            threshold_per_s: scene.flutter_threshold_per_s(),
+            threshold_per_s,
             range_rad_per_s: SpeedRange::new(0.0, self.to_rad_per_s()),
             covered_to_rad_per_s: scene
                 .file()
@@ -189,16 +225,25 @@ impl Study {
             }
             _ => vec![None; self.gap_columns().len()],
         };
-        let criteria = self
-            .limits()
-            .map(|limits| limits.criteria(&evidence, scene.accuracy()));
+        let criteria = self.limits().map(|limits| {
+            let judge = Judge {
+                found: &evidence,
+                limits: &limits.limits,
+                rim_radius_m: scene.blade().outer_radius_m,
+                is_held: !onsets.has_free_motions,
+                accuracy: scene.accuracy(),
+            };
+            let operating = limits.operating_rad_per_s;
+            let deviation = self.deviation(scene, &evidence, limits, edge_error);
+            let criteria = judge.criteria(operating).into_iter();
+            criteria.chain(deviation).collect::<Vec<_>>()
+        });
         let (mut bands, mut critical_rpm) = (Vec::new(), Vec::new());
         if self.file().bands {
-            let threshold = scene.flutter_threshold_per_s();
             let listed = onsets.instabilities.iter();
             bands.extend(listed.map(|band| InstabilityBand {
                 estimated_relative_error: edge_error,
-                ..InstabilityBand::new(band, threshold)
+                ..InstabilityBand::new(band, threshold_per_s)
             }));
             let end = self.to_rad_per_s();
             let critical = onsets.critical_rad_per_s.iter();
@@ -211,7 +256,7 @@ impl Study {
             lowest_critical_rpm: onsets.lowest_critical_rad_per_s.map(rpm),
             flutter_rpm: onsets.flutter_speed_rad_per_s.map(rpm),
             first_merge_rpm: onsets.first_merge_rad_per_s.map(rpm),
-            kept: criteria.iter().flatten().map(|c| c.passed).collect(),
+            kept: criteria.iter().flatten().map(Criterion::is_kept).collect(),
             gap,
             functions: onsets.functions,
             estimated_relative_error: onsets.estimated_relative_error,

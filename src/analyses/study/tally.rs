@@ -200,7 +200,7 @@ impl<'a> Tally<'a> {
 }
 
 fn margin(study: &Study) -> f64 {
-    let own = study.limits().map(|limits| limits.margin);
+    let own = study.limits().map(|limits| limits.limits.margin());
     own.unwrap_or(study.scene().limits().margin())
 }
 

@@ -10,7 +10,7 @@ use serde::Serialize;
 
 use super::common::{Output, in_words, is_standard_input};
 
-use crate::analyses::campbell::Answer;
+use crate::analyses::verdict::{Answer, Verdict};
 use crate::page::outline::{shortened, wrapped};
 
 /// Files of the table, beside the folders of the scenes.
@@ -28,8 +28,17 @@ struct Row {
     operating_rpm: Option<f64>,
     /// Operating speed over first critical speed.
     of_lowest_critical: Option<f64>,
-    /// Whether it can run at its operating speed, in words.
-    verdict: Option<&'static str>,
+    /// Whether it can run at its operating speed.
+    answer: Option<Answer>,
+    /// Short name of what decides; `None` if the answer is yes.
+    cause: Option<String>,
+    /// What decides, in words.
+    reason: Option<String>,
+    /// Highest speed up to which it can run.
+    allowed_to_rpm: Option<f64>,
+    /// The answer and its cause, for the printed table.
+    #[serde(skip)]
+    in_table: Option<String>,
     instabilities: usize,
     warnings: usize,
     /// Reason why the scene could not be charted.
@@ -92,6 +101,7 @@ impl Row {
         };
         let of = report.as_ref();
         let operating = of.and_then(|r| r.operating.as_ref());
+        let verdict = of.map(|report| &report.verdict);
         Row {
             folder,
             name,
@@ -99,7 +109,11 @@ impl Row {
             flutter_speed_rpm: of.and_then(|r| r.flutter_speed_rpm),
             operating_rpm: operating.map(|o| o.rpm),
             of_lowest_critical: operating.and_then(|o| o.of_lowest_critical),
-            verdict: operating.map(|o| Answer::new(o).in_few_words()),
+            answer: verdict.and_then(|verdict| verdict.answer),
+            cause: verdict.and_then(|verdict| verdict.cause.clone()),
+            reason: verdict.map(|verdict| verdict.reason.clone()),
+            allowed_to_rpm: verdict.and_then(|verdict| verdict.allowed_to_rpm),
+            in_table: verdict.map(Verdict::in_table),
             instabilities: of.map_or(0, |r| r.instabilities.len()),
             warnings: of.map_or(0, |r| r.unusual_numbers.len() + r.warnings.len()),
             error,
@@ -139,7 +153,7 @@ fn table(rows: &[Row]) -> String {
                 speed(row.flutter_speed_rpm),
                 speed(row.operating_rpm),
                 percent(row.of_lowest_critical),
-                row.verdict.unwrap_or("-"),
+                row.in_table.as_deref().unwrap_or("-"),
                 if row.warnings > 0 { " *" } else { "" }
             ),
         };

@@ -65,9 +65,8 @@ fn verdict(line: &str) -> Option<Verdict> {
     let firsts = [
         ("Warning:", Tone::Doubtful),
         ("Unusual number", Tone::Doubtful),
-        ("FAILED", Tone::Bad),
         ("FAIL", Tone::Bad),
-        ("PASSED", Tone::Good),
+        ("RISK", Tone::Doubtful),
         ("PASS", Tone::Good),
     ];
     let first = firsts.iter().find(|(word, _)| line.starts_with(word));
@@ -78,16 +77,16 @@ fn verdict(line: &str) -> Option<Verdict> {
             tone: *tone,
         });
     }
-    let from = line
-        .find("? ")
-        .filter(|_| line.starts_with("Can it run at"))?
-        + 2;
+    let from = line.find("? ").filter(|_| line.starts_with("Can it "))? + 2;
     let tone = match line.get(from..from + 2) {
         Some("YE") => Tone::Good,
         Some("NO") => Tone::Bad,
         _ => Tone::Doubtful,
     };
-    let length = line.trim_end().len() - from;
+    let end = line[from..]
+        .find(':')
+        .map_or(line.trim_end().len(), |colon| from + colon);
+    let length = end - from;
     Some(Verdict { from, length, tone })
 }
 
@@ -97,11 +96,11 @@ mod tests {
 
     #[test]
     fn words_are_plain_unless_colour_is_on() {
-        let text = "Can it run at 1800 rpm? NO, UNSTABLE: flutter\nmore\n";
+        let text = "Can it run at 1800 rpm? NO: flutter grows\nmore\n";
         assert_eq!(Paint { is_on: false }.text(text), text);
         assert_eq!(
             Paint { is_on: true }.text(text),
-            "Can it run at 1800 rpm? \u{1b}[1;31mNO, UNSTABLE: flutter\u{1b}[0m\nmore\n"
+            "Can it run at 1800 rpm? \u{1b}[1;31mNO\u{1b}[0m: flutter grows\nmore\n"
         );
     }
 

@@ -2,15 +2,15 @@
 
 use serde::Serialize;
 
-use crate::analyses::campbell::{
-    Answer, OperatingPoint, Report, ToleratedHeat, answer, deciding, headline, outline, usable,
-};
+use crate::analyses::campbell::{Report, ToleratedHeat, outline, usable};
+use crate::analyses::verdict::{Answer, Verdict};
 use crate::page::outline::{Fact, GROWTH, KELVIN, Outline, PERCENT, SPEED, Value};
+use crate::page::text::shown_to;
 
 /// Text from the report.
 #[derive(Serialize)]
 pub struct Told {
-    verdict: Verdict,
+    verdict: ShownVerdict,
     facts: Vec<Fact>,
     ruler: Ruler,
     /// The summary.
@@ -19,7 +19,7 @@ pub struct Told {
 
 /// Whether the saw can run at its operating speed.
 #[derive(Debug, Serialize)]
-pub struct Verdict {
+pub struct ShownVerdict {
     /// Null without an operating speed.
     answer: Option<Answer>,
     /// The answer in few words.
@@ -45,7 +45,7 @@ impl Told {
     /// Creates the text for a report.
     pub fn new(report: &Report) -> Self {
         Told {
-            verdict: Verdict::new(report),
+            verdict: Told::verdict(&report.verdict),
             facts: facts(report),
             ruler: Ruler::new(report),
             outline: outline(report),
@@ -53,31 +53,17 @@ impl Told {
     }
 }
 
-impl Verdict {
-    fn new(report: &Report) -> Self {
-        let text = answer(report);
-        let mut lines = text.lines().into_iter().map(str::to_owned);
-        let mut next = || lines.next().unwrap_or_default();
-        match &report.operating {
-            None => Verdict {
-                answer: None,
-                word: next(),
-                line: next(),
-            },
-            Some(operating) => Verdict {
-                line: deciding(report, operating).unwrap_or_else(next),
-                ..Verdict::early(operating)
-            },
-        }
-    }
-
-    /// The verdict before its numbers are known.
-    pub fn early(operating: &OperatingPoint) -> Self {
-        let answer = Answer::new(operating);
-        Verdict {
-            answer: Some(answer),
-            word: answer.in_few_words().to_owned(),
-            line: headline(operating),
+impl Told {
+    /// The verdict in the place of the page for it.
+    pub fn verdict(found: &Verdict) -> ShownVerdict {
+        let word = match found.answer.zip(found.rpm) {
+            Some((answer, rpm)) => format!("{} at {} rpm", answer.in_words(), shown_to(6, rpm)),
+            None => "not judged".to_owned(),
+        };
+        ShownVerdict {
+            answer: found.answer,
+            word: word[..1].to_uppercase() + &word[1..],
+            line: found.in_one_line(),
         }
     }
 }
@@ -85,7 +71,8 @@ impl Verdict {
 impl Ruler {
     fn new(report: &Report) -> Self {
         let operating = report.operating.as_ref();
-        let critical = operating.and_then(|at| Some((at.limit, at.lowest_critical_rpm?)));
+        let margin = report.scene.limits.unwrap_or_default().margin();
+        let critical = operating.and_then(|at| Some((margin, at.lowest_critical_rpm?)));
         Ruler {
             to_rpm: report.campbell.to_rpm,
             window_rpm: operating.and_then(|at| at.safe_window_rpm),
@@ -164,11 +151,11 @@ mod tests {
     #[test]
     fn the_verdict_is_that_of_the_summary() {
         for (rpm, wanted) in [
-            (Some(900.0), json!("runs")),
-            (Some(1800.0), json!("past_rule")),
-            (Some(1500.0), json!("at_critical")),
-            (Some(2400.0), json!("flutter")),
-            (Some(5000.0), json!("outside_sweep")),
+            (Some(900.0), json!("yes")),
+            (Some(1800.0), json!("at_risk")),
+            (Some(1500.0), json!("at_risk")),
+            (Some(2400.0), json!("no")),
+            (Some(5000.0), json!("at_risk")),
             (None, Value::Null),
         ] {
             let scene = Scene::paper().edited(|file| {

@@ -120,6 +120,7 @@ impl Charts {
             critical: &chosen.critical,
             range_rad_per_s: chosen.range_rad_per_s,
             bands: None,
+            is_held: true,
         };
         Ok(Ahead::new(&scene, interim))
     }

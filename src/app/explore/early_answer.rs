@@ -2,12 +2,13 @@
 
 use serde::Serialize;
 
-use super::answer::{Verdict, of_bands, of_critical};
-use crate::analyses::campbell::{InstabilityBand, OperatingPoint};
-use crate::model::scene::{LimitsFile, Scene, rpm};
+use super::answer::{ShownVerdict, Told, of_bands, of_critical};
+use crate::analyses::campbell::InstabilityBand;
+use crate::analyses::verdict::Judge;
+use crate::model::scene::{Scene, rpm};
 use crate::page::figure::{Band, Item, Upright};
 use crate::page::outline::Fact;
-use crate::stability::{Evidence, Instability, Interim, flutter_onsets};
+use crate::stability::{Evidence, Instability, Interim, ListedBand, flutter_onsets};
 
 /// Results before the diagram, equal to those of the diagram.
 #[derive(Debug, Serialize)]
@@ -19,7 +20,7 @@ pub struct Ahead {
     /// Numbers that follow from the critical speeds and the bands.
     facts: Vec<Fact>,
     /// Verdict at the operating speed; null before the bands are known, and without an operating speed.
-    verdict: Option<Verdict>,
+    verdict: Option<ShownVerdict>,
 }
 
 impl Ahead {
@@ -44,40 +45,43 @@ impl Ahead {
             verdict: None,
         };
         if let Some(bands) = interim.bands {
+            let threshold_per_s = scene.flutter_threshold_per_s();
+            // The errors of edges are estimated when the diagram is complete.
+            let listed = |band| ListedBand::new(band, threshold_per_s, Some(0.0));
             let evidence = Evidence {
-                bands,
+                bands: bands.iter().map(listed).collect(),
                 has_failed: false,
-                // They are estimated when the diagram is complete.
-                edge_errors: Vec::new(),
                 critical_rad_per_s: &critical,
-                threshold_per_s: scene.flutter_threshold_per_s(),
+                threshold_per_s,
                 range_rad_per_s: interim.range_rad_per_s,
                 covered_to_rad_per_s: scene.file().covered_to(critical.first().copied()),
             };
-            ahead.add_bands(&evidence, operating, &scene.limits());
+            ahead.add_bands(bands, &evidence);
+            let judge = Judge {
+                found: &evidence,
+                limits: &scene.limits(),
+                rim_radius_m: scene.blade().outer_radius_m,
+                is_held: interim.is_held,
+                accuracy: scene.accuracy(),
+            };
+            let verdict = || Told::verdict(&judge.verdict(operating, Vec::new()));
+            ahead.verdict = operating.map(|_| verdict());
         }
         ahead
     }
 
-    fn add_bands(
-        &mut self,
-        evidence: &Evidence<'_>,
-        operating_rad_per_s: Option<f64>,
-        limits: &LimitsFile,
-    ) {
+    fn add_bands(&mut self, bands: &[Instability], evidence: &Evidence<'_>) {
         let threshold = evidence.threshold_per_s;
         let range_rpm = evidence.range_rad_per_s.ends().map(rpm);
         let shaded = |band: &Instability| {
             let entry = InstabilityBand::new(band, threshold);
             Item::Band(Band::new(&entry, range_rpm))
         };
-        self.bands = Some(evidence.bands.iter().map(shaded).collect());
-        let onsets = flutter_onsets(evidence.bands, threshold)
+        self.bands = Some(bands.iter().map(shaded).collect());
+        let onsets = flutter_onsets(bands, threshold)
             .map(|onset| onset.map(|onset| rpm(onset.speed_rad_per_s)));
-        let growths = evidence.bands.iter().map(|band| band.peak_growth_per_s);
+        let growths = bands.iter().map(|band| band.peak_growth_per_s);
         self.facts.extend(of_bands(onsets, growths));
-        self.verdict = operating_rad_per_s
-            .map(|speed| Verdict::early(&OperatingPoint::from_evidence(evidence, speed, limits)));
     }
 }
 

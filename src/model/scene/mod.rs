@@ -82,7 +82,7 @@ pub use guide_controller::GuideControllerFile;
 pub use guide_file::{ContactLaw, GuideFile, GuideShape, GuideSide};
 pub use guide_film::GuideFilmFile;
 pub use limits::LimitsFile;
-pub(crate) use limits::{USUAL_MARGIN, USUAL_MAX_RIM_M_PER_S};
+pub(crate) use limits::USUAL_MARGIN;
 pub(crate) use membrane::{Membrane, Temperature, TemperatureShape};
 pub use membrane::{MembraneFile, TemperatureFile, TemperatureRow};
 pub(crate) use pad_law::{PadLaw, PoleTerm};

@@ -80,6 +80,11 @@ impl GyroscopicSystem {
         system
     }
 
+    /// Whether nothing holds some rigid motion of a plate.
+    pub(crate) fn has_free_motions(plate: &Plate) -> bool {
+        plate.basis.has_rigid_motions() && !Self::of_plate(plate).free_rigid.is_empty()
+    }
+
     /// The system of the whole plate inside the gaps of its pads. Its rigid motions without stiffness do not
     /// count as free, because the pads hold them beyond the gaps. `None` if no pad lifts off.
     pub(crate) fn of_released(plate: &Plate) -> Option<Self> {

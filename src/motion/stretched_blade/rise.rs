@@ -70,11 +70,15 @@ mod tests {
         assert!(entry.amplitude_not_computed.is_some());
         let summary = report.summary();
         assert!(summary.contains("not computed"), "{summary}");
-        let limits = crate::analyses::check::Limits {
+        let limits = crate::model::scene::LimitsFile {
             max_amplitude_m: Some(1.0),
-            ..crate::analyses::check::Limits::at(rad_per_s(1000.0))
+            ..Default::default()
         };
-        let criterion = limits.of_amplitude(&analysis, &found).unwrap();
+        let operating = rad_per_s(1000.0);
+        let verdict =
+            crate::analyses::check::judged(&analysis, &limits, None, Some(operating), &found);
+        let mut of_all = verdict.limits.iter();
+        let criterion = of_all.find(|limit| limit.key == "max_amplitude").unwrap();
         assert!(criterion.finding.contains("not computed"), "{criterion:?}");
     }
 }

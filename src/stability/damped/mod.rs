@@ -50,7 +50,8 @@ pub(super) fn charted<'a>(
     let speeds = DrawnSpeeds::new(model, clear_range(&model.critical, range), count);
     branches::check_room(model, &speeds.all)?;
     let (found, between, seen) = searched_bands(model, range, options.detail)?;
-    options.report(&model.critical, range, Some(&found.instabilities));
+    let is_held = !model.has_free_motions();
+    options.report(&model.critical, range, Some(&found.instabilities), is_held);
     let share = Closeness::of(options.detail).drawn;
     let bands = found.instabilities.iter();
     let beside: Vec<f64> = bands.flat_map(|band| drawn_speeds(band, share)).collect();

@@ -60,7 +60,8 @@ pub(super) fn charted<'a>(
         solved,
         pieces,
     } = searched(model, range, &search, depth, Extent::Diagram)?;
-    options.report(&model.critical, range, Some(&found.instabilities));
+    let is_held = !model.has_free_motions();
+    options.report(&model.critical, range, Some(&found.instabilities), is_held);
     let inside = solved
         .iter()
         .filter(|at| within.contains(at.speed_rad_per_s));

@@ -13,7 +13,7 @@ use crate::page::figure::style::{CURVE, HAIRLINE, MEASURED_SIZE, STRONG_CURVE};
 use crate::page::text::shown_to;
 
 /// Name of the line along the axis of speeds between the ends of the window around the operating speed.
-pub const WINDOW: &str = "usable speeds";
+pub const WINDOW: &str = "window without instability";
 const WINDOW_TINT: f64 = 0.35;
 /// Width of this line; half of it is visible where curves are clipped at the axis.
 const WINDOW_WIDTH: f64 = 7.0;

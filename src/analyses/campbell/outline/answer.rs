@@ -2,88 +2,17 @@
 
 use super::is_damped;
 use crate::analyses::campbell::{
-    InstabilityBand, InstabilityKind, OperatingPoint, Report, StabilityState, near_critical,
-    side_force_in_words,
+    InstabilityBand, InstabilityKind, OperatingPoint, Report, side_force_in_words,
 };
-use crate::model::scene::{Accuracy, SlotPassing};
+use crate::analyses::verdict::{CRITICAL, near_critical};
 use crate::page::outline::{Outline, SPEED};
 use crate::page::text::shown_to;
 use crate::stability::CRITICAL_MARGIN;
 
-/// Whether a saw can run at its operating speed.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-#[cfg_attr(feature = "page", derive(serde::Serialize))]
-#[cfg_attr(feature = "page", serde(rename_all = "snake_case"))]
-pub enum Answer {
-    /// The saw is stable and keeps the 85 % rule, or has no critical speed.
-    Runs,
-    /// The saw is stable but breaks the 85 % rule.
-    PastRule,
-    /// The saw is stable, but its speed is within 5 % of a critical speed.
-    AtCritical,
-    /// The saw diverges.
-    Divergence,
-    /// The saw flutters.
-    Flutter,
-    /// The estimated error of the edge of a band leaves open whether the saw is stable.
-    TooClose,
-    /// The search for bands failed.
-    NotDetermined,
-    /// Slots pass guides, which the model does not cover at this speed.
-    NotCovered,
-    /// The sweep does not include the operating speed.
-    OutsideSweep,
-}
-
-impl Answer {
-    /// Derives the answer from the verdict at the operating speed.
-    pub fn new(operating: &OperatingPoint) -> Self {
-        match operating.verdict {
-            StabilityState::Divergence => Answer::Divergence,
-            StabilityState::Flutter => Answer::Flutter,
-            StabilityState::TooClose => Answer::TooClose,
-            StabilityState::NotDetermined => Answer::NotDetermined,
-            StabilityState::NotCovered => Answer::NotCovered,
-            StabilityState::OutsideSweep => Answer::OutsideSweep,
-            StabilityState::Stable if operating.at_critical_rpm.is_some() => Answer::AtCritical,
-            StabilityState::Stable if operating.within_limit == Some(false) => Answer::PastRule,
-            StabilityState::Stable => Answer::Runs,
-        }
-    }
-
-    /// The answer in few words, for tables.
-    pub fn in_few_words(self) -> &'static str {
-        match self {
-            Answer::Runs => "stable",
-            Answer::PastRule => "past the limit",
-            Answer::AtCritical => "at critical",
-            Answer::Divergence => "divergence",
-            Answer::Flutter => "flutter",
-            Answer::TooClose => "too close",
-            Answer::NotDetermined => "not determined",
-            Answer::NotCovered => "not certain",
-            Answer::OutsideSweep => "outside sweep",
-        }
-    }
-
-    fn in_words(self) -> &'static str {
-        match self {
-            Answer::Runs => "YES",
-            Answer::PastRule => "STABLE, but above the usual limit",
-            Answer::AtCritical => "STABLE, but within 5 % of a critical speed",
-            Answer::Divergence => "NO, UNSTABLE: divergence",
-            Answer::Flutter => "NO, UNSTABLE: flutter",
-            Answer::TooClose => "TOO CLOSE TO CALL",
-            Answer::NotDetermined => "UNKNOWN: the search for bands failed",
-            Answer::NotCovered => "NOT CERTAIN: slots pass guides",
-            Answer::OutsideSweep => "UNKNOWN: outside the sweep",
-        }
-    }
-}
-
 /// The answer whether a saw can run at its operating speed, its reasons, and the speeds at which it can.
 pub fn answer(report: &Report) -> Outline {
     let mut text = Outline::default();
+    text.headline(report.verdict.headline());
     match &report.operating {
         Some(operating) => at_operating_speed(&mut text, report, operating),
         None => up_to(&mut text, report),
@@ -92,35 +21,25 @@ pub fn answer(report: &Report) -> Outline {
     text
 }
 
-/// The answer for an operating speed, with its question.
-pub fn headline(operating: &OperatingPoint) -> String {
-    let answer = Answer::new(operating).in_words();
-    format!("Can it run at {:.0} rpm? {answer}", operating.rpm)
-}
-
 fn at_operating_speed(text: &mut Outline, report: &Report, operating: &OperatingPoint) {
-    text.headline(headline(operating));
-    if let Some(words) = undecided(report, operating) {
+    for words in report.verdict.other_reasons() {
+        text.reason(words);
+    }
+    if let Some(words) = wave_at_critical(report, operating) {
         text.reason(words);
     }
     let around = operating.inside_instability;
     let band = around.and_then(|index| report.instabilities.get(index));
-    if let Some(band) = band {
-        text.reason(inside(band));
+    if let Some(name) = band.and_then(|band| band.name.as_ref()) {
+        text.reason(format!("waves of this band: {name}"));
     }
-    match Answer::new(operating) {
-        Answer::OutsideSweep => text.reason(WIDEN),
-        Answer::NotDetermined => text.reason(failed(report)),
-        Answer::NotCovered => text.reason(passing(report)),
-        _ => (),
+    for words in open(report) {
+        text.reason(words);
     }
     if let (Some(growth), Some(hz)) = (operating.growth_per_s, operating.frequency_hz) {
         text.reason(fastest(report, growth, hz, band.is_some()));
     }
     if let Some(words) = usable(report, operating) {
-        text.reason(words);
-    }
-    if let Some(words) = at_critical_speed(report, operating) {
         text.reason(words);
     }
     if let Some(words) =
@@ -131,12 +50,17 @@ fn at_operating_speed(text: &mut Outline, report: &Report, operating: &Operating
     if let Some(deviation) = &operating.deviation {
         text.reason(deviation.in_words());
     }
-    if let Some(words) = rule(operating) {
-        text.reason(words);
-    }
 }
 
-const WIDEN: &str = "widen `sweep` so that it includes operating_rpm";
+/// What leaves the verdict open, and the remedy.
+fn open(report: &Report) -> impl Iterator<Item = String> {
+    let failed = report.certificate.has_failed().then(|| failed(report));
+    let passing = report
+        .scene
+        .slot_passing()
+        .map(|of| of.in_words().to_owned());
+    failed.into_iter().chain(passing)
+}
 
 /// States which checks the search fails, and the remedy.
 fn failed(report: &Report) -> String {
@@ -144,100 +68,23 @@ fn failed(report: &Report) -> String {
     format!("{statement}; a shorter sweep or another accuracy may avoid this")
 }
 
-/// The reason for which a saw whose slots pass guides is not called stable.
-fn passing(report: &Report) -> &'static str {
-    (report.scene.slot_passing()).map_or("slots pass guides", SlotPassing::in_words)
-}
-
-/// The reason that decides the answer at the operating speed.
-#[cfg(feature = "page")]
-pub fn deciding(report: &Report, operating: &OperatingPoint) -> Option<String> {
-    match Answer::new(operating) {
-        Answer::Divergence | Answer::Flutter => {
-            let index = operating.inside_instability?;
-            report.instabilities.get(index).map(inside)
-        }
-        Answer::TooClose => undecided(report, operating),
-        Answer::OutsideSweep => Some(WIDEN.to_owned()),
-        Answer::NotDetermined => Some(failed(report)),
-        Answer::NotCovered => Some(passing(report).to_owned()),
-        Answer::AtCritical => at_critical_speed(report, operating),
-        Answer::PastRule | Answer::Runs => rule(operating).or_else(|| usable(report, operating)),
-    }
-}
-
 /// The window without instability around the operating speed, if there is one.
 pub fn usable(report: &Report, operating: &OperatingPoint) -> Option<String> {
     let [from, to] = operating.safe_window_rpm?;
     let end = end_of_window(report, to);
     let first = SPEED.fixed(usize::from(from > 0.0), from).in_words();
-    Some(format!("usable speeds: {first} to {to:.1} rpm{end}"))
-}
-
-/// Describes the band that makes the saw unstable at its operating speed.
-fn inside(band: &InstabilityBand) -> String {
-    let waves = band
-        .name
-        .as_ref()
-        .map_or(String::new(), |name| format!(", {name}"));
-    format!(
-        "inside the band of {} from {:.1} to {:.1} rpm{waves}",
-        band.kind, band.from_rpm, band.to_rpm
-    )
-}
-
-/// Names the edge of a band whose error leaves the answer open, and the remedy.
-fn undecided(report: &Report, operating: &OperatingPoint) -> Option<String> {
-    let edge = operating.undecided_edge_rpm?;
-    let mut bands = report.instabilities.iter();
-    let band = bands.find(|band| [band.from_rpm, band.to_rpm].contains(&edge))?;
-    let error = band.estimated_relative_error.map(|error| error * edge);
-    Some(too_close(edge, error, report.accuracy.name))
+    Some(format!(
+        "window without instability: {first} to {to:.1} rpm{end}"
+    ))
 }
 
 /// What an analysis of another kind says of an operating speed at which the saw is stable but hardly, or too close to an edge to
 /// call.
 pub fn caution(report: &Report) -> Option<String> {
-    let operating = report.operating.as_ref()?;
-    let said = match Answer::new(operating) {
-        Answer::TooClose => {
-            let reason = undecided(report, operating)?;
-            format!("too close to call whether the saw is stable: {reason}")
-        }
-        Answer::AtCritical => at_critical_speed(report, operating)?,
-        Answer::NotDetermined => {
-            format!(
-                "it is unknown whether the saw is stable: {}",
-                failed(report)
-            )
-        }
-        Answer::NotCovered => format!(
-            "it is not certain whether the saw is stable: {}",
-            passing(report)
-        ),
-        _ => return None,
-    };
-    Some(format!("at {:.0} rpm {said}", operating.rpm))
-}
-
-/// States that the estimated error of the edge of a band leaves open whether a saw is stable, and the remedy.
-pub fn too_close(edge_rpm: f64, error_rpm: Option<f64>, accuracy: Accuracy) -> String {
-    let error = error_rpm.map_or("an error that is unknown".to_owned(), |error| {
-        format!("an estimated error of {error:.2} rpm")
-    });
-    format!(
-        "the edge of a band, {edge_rpm:.2} rpm, has {error}; {}",
-        sharper(accuracy)
-    )
-}
-
-/// The remedy for a result that is not accurate enough.
-pub fn sharper(accuracy: Accuracy) -> &'static str {
-    match accuracy {
-        Accuracy::Draft => "use --accuracy design",
-        Accuracy::Design => "use --accuracy reference",
-        Accuracy::Reference => "give a smaller --tolerance",
-    }
+    let cause = report.verdict.cause.as_deref()?;
+    let is_open = ["too_close", "not_determined", "not_covered", CRITICAL].contains(&cause);
+    let rpm = report.verdict.rpm.filter(|_| is_open)?;
+    Some(format!("at {rpm:.0} rpm {}", report.verdict.reason))
 }
 
 /// Describes the motion with the largest growth rate, in 1/s, at the operating speed, which may be inside a band.
@@ -269,57 +116,32 @@ fn fastest(report: &Report, growth: f64, hz: f64, is_inside: bool) -> String {
     }
 }
 
-/// Warns of the critical speed close to the operating speed, if there is one.
-fn at_critical_speed(report: &Report, operating: &OperatingPoint) -> Option<String> {
+/// Names the wave of the critical speed close to the operating speed, if there is one.
+fn wave_at_critical(report: &Report, operating: &OperatingPoint) -> Option<String> {
     let rpm = operating.at_critical_rpm?;
-    let critical = report.critical_speeds.iter().find(|c| c.rpm == rpm);
-    let name = critical.map_or(String::new(), |c| format!(" ({})", c.name));
-    Some(format!("{}{name}", near_critical(rpm)))
+    let critical = report.critical_speeds.iter().find(|c| c.rpm == rpm)?;
+    Some(format!("{} ({})", near_critical(rpm), critical.name))
 }
 
-/// Compares the operating speed with the 85 % rule; `None` without a critical speed.
-fn rule(operating: &OperatingPoint) -> Option<String> {
-    let (ratio, lowest_rpm) = operating
-        .of_lowest_critical
-        .zip(operating.lowest_critical_rpm)?;
-    Some(format!(
-        "{:.0} rpm is {:.0} % of the first critical speed; the limit is {:.0} % ({:.0} rpm)",
-        operating.rpm,
-        100.0 * ratio,
-        100.0 * operating.limit,
-        operating.limit * lowest_rpm
-    ))
-}
-
-/// Adds the answer for a scene without operating speed: the speed up to which the saw is stable.
+/// Adds what is known of a saw without operating speed: the speed up to which nothing grows.
 fn up_to(text: &mut Outline, report: &Report) {
     let counted = report.instabilities.iter().flat_map(|b| &b.counted_rpm);
     let first = counted.map(|stretch| stretch[0]).reduce(f64::min);
     let from = report.campbell.from_rpm;
-    let has_failed = report.certificate.has_failed();
-    let lowest = report.critical_speeds.first().map(|critical| critical.rpm);
-    let covered_to = report.scene.covered_to(lowest);
-    let end = report.campbell.to_rpm;
-    text.headline(match first {
-        _ if !has_failed && covered_to < first.unwrap_or(end) => match covered_to {
-            0.0 => "NOT CERTAIN: slots pass guides".to_owned(),
-            _ => format!("No instability from {from:.0} to {covered_to:.1} rpm; NOT CERTAIN above: slots pass guides"),
-        },
-        _ if has_failed => "UNKNOWN: the search for bands failed".to_owned(),
-        Some(first) if first > from => {
-            format!("No instability from {from:.0} to {first:.1} rpm")
-        }
-        Some(first) => format!("Unstable above {first:.1} rpm"),
-        None => format!(
-            "No instability from {from:.0} to {:.0} rpm, the end of the sweep",
-            report.campbell.to_rpm
-        ),
-    });
-    if has_failed {
-        text.reason(failed(report));
+    if !report.certificate.has_failed() {
+        text.reason(match first {
+            Some(first) if first > from => {
+                format!("no instability from {from:.0} to {first:.1} rpm")
+            }
+            Some(first) => format!("unstable above {first:.1} rpm"),
+            None => format!(
+                "no instability from {from:.0} to {:.0} rpm, the end of the sweep",
+                report.campbell.to_rpm
+            ),
+        });
     }
-    if covered_to < first.unwrap_or(end) {
-        text.reason(passing(report));
+    for words in open(report) {
+        text.reason(words);
     }
     if let Some(critical) = report.critical_speeds.first() {
         text.reason(format!(
@@ -398,6 +220,7 @@ fn end_of_window(report: &Report, rpm: f64) -> String {
 mod tests {
     use super::*;
     use crate::analyses::campbell::sample::busy_report;
+    use crate::stability::StabilityState;
 
     /// The bands contradict the eigenvalues at a third of the speeds.
     #[test]
@@ -406,7 +229,7 @@ mod tests {
         let certificate = &mut report.certificate;
         (certificate.speeds_checked, certificate.krein_violations) = (60, 20);
         if let Some(operating) = &mut report.operating {
-            operating.verdict = StabilityState::NotDetermined;
+            operating.stability = StabilityState::NotDetermined;
             operating.inside_instability = None;
         }
         for with_speed in [true, false] {
@@ -414,12 +237,9 @@ mod tests {
                 report.operating = None;
             }
             let text = answer(&report).in_columns(false);
-            let mut lines = text.lines();
-            let first = lines.next().unwrap();
-            assert!(
-                first.contains("UNKNOWN: the search for bands failed"),
-                "{text}"
-            );
+            let words = text.split_whitespace().collect::<Vec<_>>().join(" ");
+            let remedy = "a shorter sweep or another accuracy may avoid this";
+            assert!(words.contains(remedy), "{text}");
             assert!(text.contains("Flutter speed: not determined"), "{text}");
             assert!(!text.contains('±'), "{text}");
         }

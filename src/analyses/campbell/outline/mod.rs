@@ -7,9 +7,9 @@ mod in_cut;
 mod influences;
 mod whirl;
 
-pub use answer::{Answer, answer, caution, sharper, too_close};
 #[cfg(feature = "page")]
-pub use answer::{deciding, headline, usable};
+pub use answer::usable;
+pub use answer::{answer, caution};
 pub use checks::checks;
 
 use super::Report;

@@ -1,6 +1,7 @@
 //! The modes at one speed.
 
-use crate::analyses::campbell::{Report, StabilityState, WhirlMode, near_critical};
+use crate::analyses::campbell::{Report, StabilityState, WhirlMode};
+use crate::analyses::verdict::near_critical;
 use crate::page::outline::{Column, FREQUENCY, GROWTH, Outline, PERCENT, PLAIN, Table, Value};
 
 /// Adds the verdict at one speed, and the frequencies, growth rates and names of its modes: with damping ratio

@@ -1,86 +1,82 @@
-//! Areas of stable, diverging and fluttering saws over two numbers, with contours of speeds.
+//! Areas of saws with the same answer over two numbers, with contours of speeds.
 
 use crate::analyses::map::{Contour, Contoured, MapAxis, MapReport, MappedSaw};
 use crate::analyses::scene_axis::Along;
+use crate::analyses::verdict::{Answer, OPEN_CAUSES};
 use crate::page::figure::chart_data::PanelData;
 use crate::page::figure::items::{Heat, Item, Line, Points, Shape};
 use crate::page::figure::palette::Hue;
 use crate::page::figure::style::{BLANK, Colour, DIVERGENCE_STREAK, FLUTTER_STREAK, tint};
-use crate::stability::{CRITICAL_MARGIN, StabilityState};
 
-/// Colour of stable saws within 5 % of a critical speed.
-const AT_CRITICAL: Colour = plotters::style::RGBColor(196, 216, 232);
-/// Colour of stable saws, lighter than those of instability in grey prints too.
-const STABLE: Colour = plotters::style::RGBColor(228, 240, 228);
-/// Colour of saws whose state the error of an edge leaves open.
+/// Colours of the answers, lighter than those of instability in grey prints too.
+const YES: Colour = plotters::style::RGBColor(228, 240, 228);
+const AT_RISK: Colour = plotters::style::RGBColor(252, 233, 188);
+/// Colour of saws that break a limit of the user.
+const LIMIT: Colour = plotters::style::RGBColor(222, 196, 196);
+/// Colour of saws of which it is open whether a motion grows.
 const OPEN: Colour = plotters::style::RGBColor(150, 150, 150);
 const SCENE_SIZE: f64 = 10.0;
 
-/// State of a saw at the speed of the map.
+/// Answer for a saw at the speed of the map, and what decides it.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum State {
-    Stable,
-    AtCritical,
+    Yes,
+    AtRisk,
     Divergence,
     Flutter,
-    TooClose,
+    Limit,
+    Open,
     NotAnalysed,
 }
 
 impl State {
-    const ALL: [State; 6] = [
-        State::Stable,
-        State::AtCritical,
+    const ALL: [State; 7] = [
+        State::Yes,
+        State::AtRisk,
         State::Divergence,
         State::Flutter,
-        State::TooClose,
+        State::Limit,
+        State::Open,
         State::NotAnalysed,
     ];
 
-    /// `None` if the saw was not judged, or its speed lies outside its sweep.
+    /// `None` if the saw was not judged.
     fn of(saw: &MappedSaw) -> Option<Self> {
-        match saw.state {
-            _ if saw.not_analysed.is_some() => Some(State::NotAnalysed),
-            None
-            | Some(
-                StabilityState::OutsideSweep
-                | StabilityState::NotDetermined
-                | StabilityState::NotCovered,
-            ) => None,
-            Some(StabilityState::Stable) if saw.at_critical_rpm.is_some() => {
-                Some(State::AtCritical)
-            }
-            Some(StabilityState::Stable) => Some(State::Stable),
-            Some(StabilityState::Divergence) => Some(State::Divergence),
-            Some(StabilityState::Flutter) => Some(State::Flutter),
-            Some(StabilityState::TooClose) => Some(State::TooClose),
+        if saw.not_analysed.is_some() {
+            return Some(State::NotAnalysed);
         }
+        let verdict = saw.verdict.as_ref()?;
+        Some(match (verdict.answer?, verdict.cause.as_deref()) {
+            (Answer::Yes, _) => State::Yes,
+            (Answer::No, Some("divergence")) => State::Divergence,
+            (Answer::No, Some("flutter")) => State::Flutter,
+            (Answer::No, _) => State::Limit,
+            (Answer::AtRisk, Some(cause)) if OPEN_CAUSES.contains(&cause) => State::Open,
+            (Answer::AtRisk, _) => State::AtRisk,
+        })
     }
 
     fn colour(self) -> Colour {
         match self {
-            State::Stable => STABLE,
-            State::AtCritical => AT_CRITICAL,
+            State::Yes => YES,
+            State::AtRisk => AT_RISK,
             State::Divergence => tint(DIVERGENCE_STREAK, 0.6),
             State::Flutter => tint(FLUTTER_STREAK, 0.6),
-            State::TooClose => OPEN,
+            State::Limit => LIMIT,
+            State::Open => OPEN,
             State::NotAnalysed => BLANK,
         }
     }
 
-    fn name(self) -> String {
+    fn name(self) -> &'static str {
         match self {
-            State::Stable => "stable".to_owned(),
-            State::AtCritical => {
-                format!(
-                    "within {:.0} % of a critical speed",
-                    100.0 * CRITICAL_MARGIN
-                )
-            }
-            State::Divergence => "divergence".to_owned(),
-            State::Flutter => "flutter".to_owned(),
-            State::TooClose => "too close to the edge of a band to call".to_owned(),
-            State::NotAnalysed => "not analysed".to_owned(),
+            State::Yes => "yes",
+            State::AtRisk => "at risk",
+            State::Divergence => "no, divergence",
+            State::Flutter => "no, flutter",
+            State::Limit => "no, another limit",
+            State::Open => "at risk: open whether a motion grows",
+            State::NotAnalysed => "not analysed",
         }
     }
 }
@@ -94,7 +90,7 @@ pub fn panel(report: &MapReport, y: &MapAxis) -> PanelData {
     let areas = State::ALL.map(|state| {
         let is_in = |column, row| states.get(row * columns + column) == Some(&Some(state));
         let grid = [&across.values[..], &up.values];
-        Item::Heat(Heat::class(grid, is_in, state.colour(), &state.name()))
+        Item::Heat(Heat::class(grid, is_in, state.colour(), state.name()))
     });
     let contours = report
         .contours
@@ -141,15 +137,17 @@ fn line(contour: &Contour, x: &Along, y: &Along) -> Line {
 
 /// Samples of the areas, the contours and the mark of the scene.
 pub fn key(report: &MapReport) -> Vec<Item> {
-    let is_blank = report.saws.iter().any(|saw| saw.not_analysed.is_some());
     let states = State::ALL
         .iter()
         .filter(|state| match state {
-            State::NotAnalysed => is_blank,
-            _ => report.rpm.is_some(),
+            State::Yes | State::AtRisk => report.rpm.is_some(),
+            state => report
+                .saws
+                .iter()
+                .any(|saw| State::of(saw) == Some(**state)),
         })
         .map(|state| {
-            let class = Heat::class([&[], &[]], |_, _| false, state.colour(), &state.name());
+            let class = Heat::class([&[], &[]], |_, _| false, state.colour(), state.name());
             Item::Heat(class)
         });
     let contours = [Contoured::FlutterSpeed, Contoured::LowestCriticalSpeed]

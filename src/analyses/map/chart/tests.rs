@@ -71,7 +71,10 @@ fn nothing_is_cut_off_and_the_key_names_what_is_drawn() {
         saws: report(true)
             .saws
             .into_iter()
-            .map(|saw| MappedSaw { state: None, ..saw })
+            .map(|saw| MappedSaw {
+                verdict: None,
+                ..saw
+            })
             .collect(),
         ..report(true)
     };

@@ -233,7 +233,7 @@ export class Charts {
   }
 
   get #alarms() {
-    return ["flutter", "divergence"].includes(this.#chart.told.verdict.answer);
+    return this.#chart.told.verdict.answer === "no";
   }
 
   #drawCampbell(u, narrow) {

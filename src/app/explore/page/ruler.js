@@ -1,4 +1,4 @@
-// The ruler of speeds from rest to the end of the sweep: usable speeds, the usual limit, critical speeds and bands. Its
+// The ruler of speeds from rest to the end of the sweep: the window without instability, the usual limit, critical speeds and bands. Its
 // handle is the operating speed.
 
 import { node } from "./dom.js";
