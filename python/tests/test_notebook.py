@@ -78,7 +78,7 @@ def test_a_number_that_no_saw_has_is_warned_of_before_the_answer(draft: sf.Scene
     assert {warning.filename for warning in told} == {__file__}
     shown = repr(r)
     assert "density" in shown
-    assert shown.index("density") < shown.index("critical speed")
+    assert shown.index("density") < shown.index("Can it run")
     assert "density" in r._repr_html_()
     # Reading a report computes nothing and gives no second warning.
     with warnings.catch_warnings():

@@ -54,7 +54,10 @@ def test_many_saws_are_summed_up_in_little_memory(
                 rpm = critical_rpm(value)
                 kept = str(rpm >= 1250.0 / 0.85).lower()
                 exact.append(rpm)
-                lines.append(f"{saw},{value!r},analysed,{rpm!r},,,{kept},{kept},true,85,0.001,0,\n")
+                # Stability, distance from critical speeds, margin, rim speed, static stiffness.
+                keeps = f"true,true,{kept},true,true"
+                found = f"{rpm!r},,,{kept},{keeps},85,0.001,0"
+                lines.append(f"{saw},{value!r},analysed,{found},\n")
             assert log.append("".join(lines).encode()) == ROWS
     log.close()
     merge = [programs[0], "study", "merge", str(runs), "--out", str(tmp_path / "sum")]

@@ -158,6 +158,9 @@ fn a_fit_is_taken_over_and_a_missing_part_is_added() {
 
         page.value("sawflutter.state.set('guides[0].stiffness_n_per_m', 1.5e7)")
             .await;
+        // Above the first critical speed the table is that of other modes, and the fit makes no saw of it.
+        page.value("sawflutter.state.set('measured.rows', sawflutter.state.scene.measured.rows.filter(({ rpm }) => rpm <= 1250), { structure: true })")
+            .await;
         page.compute("fit").await;
         let before = page.value("sawflutter.state.scene.guides[0]").await;
         page.find("#panel-fit .answer .tools button")

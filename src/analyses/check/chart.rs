@@ -112,9 +112,8 @@ fn of_criterion(criterion: &Criterion, row: f64, last: f64) -> Vec<Item> {
         Hue::Alarm
     };
     let asked = criterion.asked_rpm;
-    // The criterion `operating`, on a band at the operating speed, has no limit from which a distance could
-    // be drawn.
-    let unreached = if criterion.key == "operating" {
+    // Some limits have no speed from which a distance could be drawn.
+    let unreached = if ["operating", "critical", "held"].contains(&criterion.key.as_str()) {
         asked
     } else {
         last

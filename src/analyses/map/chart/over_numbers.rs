@@ -10,7 +10,7 @@ use crate::page::figure::style::{BLANK, Colour, DIVERGENCE_STREAK, FLUTTER_STREA
 
 /// Colours of the answers, lighter than those of instability in grey prints too.
 const YES: Colour = plotters::style::RGBColor(228, 240, 228);
-const AT_RISK: Colour = plotters::style::RGBColor(252, 233, 188);
+const AT_RISK: Colour = plotters::style::RGBColor(226, 222, 160);
 /// Colour of saws that break a limit of the user.
 const LIMIT: Colour = plotters::style::RGBColor(222, 196, 196);
 /// Colour of saws of which it is open whether a motion grows.
