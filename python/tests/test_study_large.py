@@ -56,8 +56,8 @@ def test_many_saws_are_summed_up_in_little_memory(
                 exact.append(rpm)
                 # Stability, distance from critical speeds, margin, rim speed, static stiffness.
                 keeps = f"true,true,{kept},true,true"
-                found = f"{rpm!r},,,{kept},{keeps},85,0.001,0"
-                lines.append(f"{saw},{value!r},analysed,{found},\n")
+                numbers = f"{rpm!r},,,{kept},{keeps},85,0.001,0"
+                lines.append(f"{saw},{value!r},analysed,{numbers},\n")
             assert log.append("".join(lines).encode()) == ROWS
     log.close()
     merge = [programs[0], "study", "merge", str(runs), "--out", str(tmp_path / "sum")]

@@ -82,6 +82,7 @@ pub use guide_controller::GuideControllerFile;
 pub use guide_file::{ContactLaw, GuideFile, GuideShape, GuideSide};
 pub use guide_film::GuideFilmFile;
 pub use limits::LimitsFile;
+#[cfg(any(feature = "cli", feature = "page"))]
 pub(crate) use limits::USUAL_MARGIN;
 pub(crate) use membrane::{Membrane, Temperature, TemperatureShape};
 pub use membrane::{MembraneFile, TemperatureFile, TemperatureRow};
