@@ -9,7 +9,9 @@ use sawflutter::analyses::map::{Options, Range, map};
 use sawflutter::analyses::report;
 use sawflutter::analyses::study::{Study, StudyFile};
 use sawflutter::analyses::verdict::{Answer, Verdict};
-use sawflutter::model::scene::{Accuracy, InPlane, LimitsFile, Mount, Scene, SceneFile, SweepFile};
+use sawflutter::model::scene::{
+    Accuracy, InPlane, LimitsFile, Mount, Scene, SceneFile, SideForceFile, SweepFile,
+};
 use sawflutter::stability::Analysis;
 
 /// Twenty saws: with and without guides, below and above critical speeds, within bands, at their edges, beyond the sweep, too fast at the
@@ -193,4 +195,41 @@ fn twenty_saws_have_one_verdict_each() {
         Answer::ALL.into_iter().all(|answer| count(answer) >= 4),
         "{answers:?}"
     );
+}
+
+/// The deflection is proportional to the force. A clamped blade may deflect by half its thickness of 2.8 mm; beyond five thicknesses the
+/// deflection itself is unknown.
+#[test]
+#[cfg_attr(debug_assertions, ignore = "many eigenproblems: run it in release")]
+fn a_deflection_beyond_the_model_puts_a_clamped_saw_at_risk() {
+    let judged = |force_n: f64| {
+        let saw = Scene::paper().edited(|saw| {
+            (saw.accuracy, saw.measured, saw.cut) = (Accuracy::Draft, None, None);
+            saw.guides.clear();
+            saw.operating_rpm = Some(900.0);
+            saw.side_force = Some(SideForceFile::of(force_n));
+            saw.mount = Mount::Collar {
+                diameter_m: 0.25,
+                in_plane: InPlane::Fixed,
+                clamp_stiffness_n_m_per_rad_per_m: None,
+            };
+        });
+        Analysis::new(&saw.unwrap()).unwrap().report()
+    };
+    let deflection_m = |report: &Report| {
+        let operating = report.operating.as_ref().unwrap();
+        operating.deviation.as_ref().unwrap().deflection_m
+    };
+    let by_one_newton = deflection_m(&judged(1.0)).unwrap();
+    for (thicknesses, cause) in [
+        (0.49, None),
+        (0.51, Some("validity")),
+        (4.9, Some("validity")),
+        (5.1, Some("validity")),
+    ] {
+        let report = judged(thicknesses * 2.8e-3 / by_one_newton);
+        assert_eq!(report.verdict.cause.as_deref(), cause, "{thicknesses}");
+        assert_eq!(deflection_m(&report).is_some(), thicknesses < 5.0);
+        assert_eq!(report.verdict.allowed_to_rpm.is_none(), cause.is_some());
+    }
 }

@@ -7,11 +7,11 @@ use super::static_deflection::StaticDeflection;
 use crate::analyses::board_deviation::BoardDeviation;
 use crate::analyses::verdict::{Answer, Criterion, Judge, LimitSource, Verdict};
 use crate::model::plate::Plate;
-use crate::model::scene::{ForceCause, LimitsFile, Mount, Polar, Scene, rpm};
-use crate::motion::stretched_blade::{Rise, saturations};
+use crate::model::scene::{ForceCause, LimitsFile, Mount, Polar, Scene, rad_per_s, rpm};
+use crate::motion::stretched_blade::Rise;
 use crate::motion::transient::{at_point, lateral_load};
 use crate::page::text::{shown, shown_to};
-use crate::stability::{Analysis, AnalysisError, Instability, InstabilityKind};
+use crate::stability::{Analysis, Instability, InstabilityKind};
 
 /// The verdict on an analysed saw at its operating speed, with the deflection at the cut there, and with the amplitudes of its bands if
 /// they have a limit.
@@ -44,34 +44,12 @@ pub(crate) fn judged(
     judge.verdict(operating, further)
 }
 
-/// The verdict on the saw of a scene at its operating speed.
-///
-/// # Errors
-/// [`AnalysisError`] if it cannot be analysed.
-pub(crate) fn verdict(scene: &Scene) -> Result<Verdict, AnalysisError> {
-    let analysis = Analysis::new(scene)?;
-    let limits = scene.limits();
-    let operating = scene.operating_rad_per_s();
-    let deviation = operating.map(|speed| BoardDeviation::of(&analysis, speed));
-    let amplitudes = match limits.max_amplitude_m {
-        None => Vec::new(),
-        Some(_) => saturations(&analysis).unwrap_or_default(),
-    };
-    Ok(judged(
-        &analysis,
-        &limits,
-        deviation.as_ref(),
-        operating,
-        &amplitudes,
-    ))
-}
-
 /// Ratio between the amplitude near one edge of a band and the amplitude at the speed of largest growth.
 const AT_AN_EDGE: f64 = std::f64::consts::SQRT_2;
 
 /// Criterion of the amplitude of flutter, with the first band whose amplitude exceeds the limit; `None` without a
 /// limit.
-pub(crate) fn of_amplitude(
+fn of_amplitude(
     limits: &LimitsFile,
     analysis: &Analysis,
     operating: f64,
@@ -140,7 +118,8 @@ pub(crate) fn of_deflection(
     found: &BoardDeviation,
 ) -> Vec<Criterion> {
     let limit = of_deviation(judge.limits, found.rpm, Some(found));
-    limit.into_iter().chain(of_validity(scene, found)).collect()
+    let validity = of_validity(scene, judge, found);
+    limit.into_iter().chain(validity).collect()
 }
 
 /// Criterion of the limit of this deflection at a speed in rpm; `None` without a limit.
@@ -175,14 +154,17 @@ pub(crate) fn of_deviation(
 const VALID_THICKNESSES: f64 = 0.5;
 
 /// Criterion of a deflection at the cut beyond the linear model; `None` within it, for a force that is only assumed, for the stretched
-/// blade between guides with gaps, and for a blade on a spline, which mostly tilts without stretching.
-fn of_validity(scene: &Scene, found: &BoardDeviation) -> Option<Criterion> {
+/// blade between guides with gaps, and for a blade on a spline that tilts without stretching. A deflection that is unknown although the
+/// blade has an equilibrium is far beyond this model.
+fn of_validity(scene: &Scene, judge: &Judge<'_>, found: &BoardDeviation) -> Option<Criterion> {
     let limit_m = VALID_THICKNESSES * scene.blade().thickness_range_m()[0];
-    let found_m = found.deflection_m?;
     let bends = matches!(scene.file().mount, Mount::Collar { .. });
     let is_linear = !found.by_contact && found.cause != ForceCause::Assumed;
-    let is_valid = found_m <= limit_m || !bends || !is_linear;
-    (!is_valid).then(|| Criterion {
+    let is_beyond = match found.deflection_m {
+        Some(found_m) => bends && found_m > limit_m,
+        None => judge.has_equilibrium(rad_per_s(found.rpm)),
+    };
+    (is_linear && is_beyond).then(|| Criterion {
         key: "validity".to_owned(),
         name: "linear deflection of at most half a thickness".to_owned(),
         finding: found.in_words(),

@@ -34,7 +34,7 @@ use crate::stability::{Analysis, AnalysisError, check_stretch};
 pub(crate) use outline::outline;
 
 use criteria::lateral;
-pub(crate) use criteria::{judged, of_deflection, of_deviation, verdict};
+pub(crate) use criteria::{judged, of_deflection, of_deviation};
 pub use limits::Limits;
 use limits::Reach;
 pub use options::Options;

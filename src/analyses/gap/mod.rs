@@ -70,7 +70,6 @@ pub fn gap(scene: &Scene, options: &Options) -> Result<GapReport, GapError> {
     let scene = tried.as_ref().map_or(scene, |tried| &tried.scene);
     options.checked(scene)?;
     let analysis = Analysis::new(scene)?;
-    let amplitude = AmplitudeChart::new(&analysis)?;
     let first = analysis.model.critical.first();
     let speed = options
         .rpm
@@ -79,6 +78,7 @@ pub fn gap(scene: &Scene, options: &Options) -> Result<GapReport, GapError> {
         .or(first.map(|critical| 0.5 * critical.speed_rad_per_s))
         .unwrap_or(analysis.range_rad_per_s.to_rad_per_s);
     check_complete(&analysis, options, speed)?;
+    let amplitude = AmplitudeChart::new(&analysis)?;
     let speed_rpm = rpm(speed);
     let deviation = deviation_map(&analysis, speed_rpm, scene.limits().max_deviation_m)?;
     let oscillators = Oscillators::of(scene);

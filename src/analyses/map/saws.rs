@@ -10,7 +10,7 @@ use crate::analyses::check::{Judged, of_deflection};
 use crate::analyses::study::{Found, LogError, Rows, Saw};
 use crate::analyses::verdict::{Judge, Verdict};
 use crate::model::plate::{Plate, Resolution};
-use crate::model::scene::{Scene, SpeedRange, rad_per_s, rpm};
+use crate::model::scene::{ForceCause, Scene, SpeedRange, rad_per_s, rpm};
 use crate::model::system::GyroscopicSystem;
 use crate::stability::Evidence;
 
@@ -105,9 +105,16 @@ impl Map {
                 critical_rad_per_s: own.critical.map(|place| critical[place]),
                 estimated_relative_error: Some(found.estimated_relative_error),
             };
-            let deviation = BoardDeviation::of_judged(scene, basis, &judged);
-            let further = of_deflection(scene, &judge, &deviation);
-            (further, judged.side_force_factor(scene, basis))
+            let force = scene.constant_force_at(rpm(speed_rad_per_s));
+            let is_limited = judge.limits.max_deviation_m.is_some();
+            // A force that is only assumed breaks no limit that nobody set.
+            let decides = is_limited || force.cause != ForceCause::Assumed;
+            let deviation = decides.then(|| BoardDeviation::of_judged(scene, basis, &judged));
+            let further = deviation.map(|found| of_deflection(scene, &judge, &found));
+            (
+                further.unwrap_or_default(),
+                judged.side_force_factor(scene, basis),
+            )
         });
         let (further, factor) = at_speed.unwrap_or_default();
         (Some(judge.verdict(speed, further)), factor)

@@ -47,11 +47,10 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 use rayon::prelude::*;
 
 use crate::analyses::campbell::{InstabilityBand, statement};
-use crate::analyses::check::verdict;
 use crate::analyses::door::Progress;
 use crate::model::scene::{Freed, Parted, Scene, SceneError, effective, rpm};
 use crate::modes::Cancellation;
-use crate::stability::ChosenBasis;
+use crate::stability::{Analysis, ChosenBasis};
 
 use choice::{Choice, Weighed, basis_of_all, settle};
 pub use demands::{Demands, GapDemands, Options, Tolerances};
@@ -141,6 +140,7 @@ pub fn place(
     let threshold_per_s = placed.flutter_threshold_per_s();
     let listed = |band| InstabilityBand::new(band, threshold_per_s);
     let certificate = &best.computed.certificate;
+    let verdict = |scene: &Scene| Analysis::new(scene).map(|analysis| analysis.report().verdict);
     let judged = verdict(&placed);
     let mut report = PlaceReport {
         sawflutter: env!("CARGO_PKG_VERSION").to_owned(),

@@ -4,7 +4,7 @@ use super::Criterion;
 use super::judge::Judge;
 use crate::model::scene::rad_per_s;
 use crate::page::text::shown;
-use crate::stability::{CRITICAL_MARGIN, InstabilityKind};
+use crate::stability::CRITICAL_MARGIN;
 
 /// Speeds at which a saw keeps all its limits, in rad/s.
 pub struct Allowed {
@@ -34,9 +34,9 @@ pub fn allowed(judge: &Judge<'_>, limits: &[Criterion]) -> Allowed {
         by: "where the sweep ends".to_owned(),
     };
     let mut windows_rad_per_s = Vec::new();
-    let mut ended_by = None;
+    let ended_by = excluded.first().unwrap_or(&end).by.clone();
     let mut begin = from;
-    for Excluded { from, to: over, by } in excluded.into_iter().chain([end]) {
+    for Excluded { from, to: over, .. } in excluded.into_iter().chain([end]) {
         let last = from.min(to);
         if last > begin {
             windows_rad_per_s.push([begin, last]);
@@ -44,7 +44,6 @@ pub fn allowed(judge: &Judge<'_>, limits: &[Criterion]) -> Allowed {
         if begin < over {
             begin = over;
         }
-        ended_by.get_or_insert(by);
     }
     let first = windows_rad_per_s.first();
     Allowed {
@@ -52,7 +51,7 @@ pub fn allowed(judge: &Judge<'_>, limits: &[Criterion]) -> Allowed {
             .filter(|[begin, _]| *begin == from)
             .map(|window| window[1]),
         windows_rad_per_s,
-        ended_by,
+        ended_by: Some(ended_by),
     }
 }
 
@@ -79,7 +78,7 @@ fn excluded(judge: &Judge<'_>, limits: &[Criterion]) -> Vec<Excluded> {
             } else {
                 0.0
             };
-            above(to, format!("the speed at which the {DEFLECTION} is judged"));
+            above(to, "the speed at which the deflection is judged".to_owned());
         }
     }
     for gap in limits.iter().filter(|criterion| criterion.key == "gap") {
@@ -111,23 +110,17 @@ fn excluded(judge: &Judge<'_>, limits: &[Criterion]) -> Vec<Excluded> {
     all
 }
 
-const DEFLECTION: &str = "deflection";
-
 /// Speeds at which flutter or divergence counts or is weak, widened by the errors of the edges.
 fn bands(judge: &Judge<'_>) -> impl Iterator<Item = Excluded> {
     let found = judge.found;
     let sweep = found.range_rad_per_s.ends();
     found.bands.iter().flat_map(move |band| {
-        let kind = match band.kind {
-            InstabilityKind::Divergence => "divergence",
-            InstabilityKind::Flutter if band.counted.is_empty() => "weak flutter",
-            InstabilityKind::Flutter => "flutter",
-        };
+        let weak = if band.counted.is_empty() { "weak " } else { "" };
         let stretches = band.to_avoid(sweep).into_iter();
         stretches.map(move |[from, to]| Excluded {
             from,
             to,
-            by: format!("where {kind} begins"),
+            by: format!("where {weak}{} begins", band.kind),
         })
     })
 }

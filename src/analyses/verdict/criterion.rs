@@ -58,7 +58,7 @@ impl Criterion {
     }
 
     /// The result as the reason of a verdict.
-    pub(super) fn in_words(&self) -> String {
+    pub(crate) fn in_words(&self) -> String {
         match self.key.as_str() {
             // Their results say what they are compared with.
             STABILITY | CRITICAL | MARGIN => self.finding.clone(),

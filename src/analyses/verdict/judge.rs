@@ -36,6 +36,12 @@ impl Judge<'_> {
         criteria
     }
 
+    /// Whether the blade has an equilibrium under a constant force at a speed, and away from critical speeds.
+    pub fn has_equilibrium(&self, speed_rad_per_s: f64) -> bool {
+        let verdict = self.found.verdict(speed_rad_per_s);
+        self.is_held && verdict.state == StabilityState::Stable && verdict.critical.is_none()
+    }
+
     /// Limits of the user that no operating speed changes.
     pub fn of_all_speeds(&self) -> Vec<Criterion> {
         let critical = self.limits.min_critical_rpm.map(|asked| {
@@ -254,12 +260,9 @@ fn source(of_user: Option<f64>) -> LimitSource {
 /// What grows in a band.
 fn grows(band: &ListedBand) -> String {
     let [from, to] = band.range.ends().map(rpm);
-    let kind = match band.kind {
-        InstabilityKind::Divergence => "divergence",
-        InstabilityKind::Flutter => "flutter",
-    };
     format!(
-        "{kind} grows by up to {} 1/s from {from:.1} to {to:.1} rpm",
+        "{} grows by up to {} 1/s from {from:.1} to {to:.1} rpm",
+        band.kind,
         shown_to(3, band.peak_growth_per_s)
     )
 }

@@ -78,9 +78,9 @@ impl Verdict {
     }
 
     /// Limits that are not kept, the worst first, except the one that is the reason.
-    pub fn other_reasons(&self) -> Vec<String> {
+    pub fn other_reasons(&self) -> impl Iterator<Item = &Criterion> {
         let mut broken: Vec<&Criterion> = self.limits.iter().filter(|c| !c.is_kept()).collect();
         broken.sort_by_key(|criterion| std::cmp::Reverse(criterion.answer));
-        broken.iter().skip(1).map(|c| c.in_words()).collect()
+        broken.into_iter().skip(1)
     }
 }

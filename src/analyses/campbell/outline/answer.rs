@@ -22,10 +22,14 @@ pub fn answer(report: &Report) -> Outline {
 }
 
 fn at_operating_speed(text: &mut Outline, report: &Report, operating: &OperatingPoint) {
-    for words in report.verdict.other_reasons() {
-        text.reason(words);
+    let wave = wave_at_critical(report, operating);
+    for limit in report.verdict.other_reasons() {
+        // The wave is named with its critical speed.
+        if wave.is_none() || limit.key != CRITICAL {
+            text.reason(limit.in_words());
+        }
     }
-    if let Some(words) = wave_at_critical(report, operating) {
+    if let Some(words) = wave {
         text.reason(words);
     }
     let around = operating.inside_instability;
