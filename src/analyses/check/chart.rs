@@ -104,6 +104,9 @@ fn limits(report: &CheckReport, speed: &AxisData) -> PanelData {
     }
 }
 
+/// Keys of the limits without a speed from which a distance could be drawn.
+const WITHOUT_DISTANCE: [&str; 5] = ["operating", "critical", "held", "max_deviation", "validity"];
+
 /// The result as a disc, the difference as a bar, and the limit as a short vertical line.
 fn of_criterion(criterion: &Criterion, row: f64, last: f64) -> Vec<Item> {
     let hue = if criterion.is_kept() {
@@ -112,8 +115,7 @@ fn of_criterion(criterion: &Criterion, row: f64, last: f64) -> Vec<Item> {
         Hue::Alarm
     };
     let asked = criterion.asked_rpm;
-    // Some limits have no speed from which a distance could be drawn.
-    let unreached = if ["operating", "critical", "held"].contains(&criterion.key.as_str()) {
+    let unreached = if WITHOUT_DISTANCE.contains(&criterion.key.as_str()) {
         asked
     } else {
         last
