@@ -306,6 +306,29 @@ class Criterion(Entry):
 
 
 @dataclass(frozen=True, eq=False, repr=False, kw_only=True)
+class FloquetEntry(Entry):
+    """Growth of a slotted saw beside guides by Floquet multipliers, at the operating speed and
+    1 % below and above it.
+
+    Attributes
+    ----------
+    speeds_rpm : The three speeds.
+    growth_per_s : Largest growth rate ln|μ|/T at each, with the multipliers μ over the time T
+        in which one slot takes the place of the next; negative if every motion decays.
+    error_per_s : Estimated error of each: its change with half as long steps of time, plus
+        three times that with a third of the coordinates left out.
+    coordinates : Number of coordinates of the blade.
+    steps : Number of steps of time in T, at the operating speed.
+    """
+
+    speeds_rpm: FloatArray
+    growth_per_s: FloatArray
+    error_per_s: FloatArray
+    coordinates: int
+    steps: int
+
+
+@dataclass(frozen=True, eq=False, repr=False, kw_only=True)
 class VerdictEntry(Entry):
     """Whether a saw can run at its operating speed, and why.
 
@@ -322,6 +345,9 @@ class VerdictEntry(Entry):
     allowed_by : What ends these speeds, in words; null without such speeds.
     windows_rpm : All ranges of speed in the sweep with the answer yes.
     limits : Every limit, with its result at the operating speed; empty without one.
+    floquet : Growth of a slotted saw beside guides, by Floquet multipliers; absent for other
+        saws, without an operating speed, where a band decides, and for guides that they do not
+        cover.
     """
 
     answer: Answer | None
@@ -332,6 +358,7 @@ class VerdictEntry(Entry):
     allowed_by: str | None
     windows_rpm: FloatArray
     limits: tuple[Criterion, ...]
+    floquet: FloquetEntry | None = field(default=None)
 
 
 @dataclass(frozen=True, eq=False, repr=False, kw_only=True)

@@ -13,6 +13,7 @@ use super::error::AnalysisError;
 use super::estimate::Estimates;
 use super::excitation::{Crossing, crossings};
 use super::expected_work::ExpectedWork;
+use super::floquet::{NearbyGrowth, NotComputed};
 use super::heat::HeatLimits;
 use super::ladder::next_smaller;
 use super::listed_band::ListedBand;
@@ -99,6 +100,9 @@ pub struct Analysis {
     pub crossings: Vec<Crossing>,
     /// Why the sweep that the program chose ends earlier than usual, if the chart of the usual one was refused.
     pub shortened: Option<Shortened>,
+    /// Growth of a slotted saw beside guides at and beside the operating speed, by Floquet multipliers, or why it was not computed; `None`
+    /// for other saws, without an operating speed, and where a band decides.
+    pub floquet: Option<Result<NearbyGrowth, NotComputed>>,
 }
 
 /// The light gap of a scene with a straight edge.
@@ -222,6 +226,7 @@ impl Analysis {
         let analysis = Analysis {
             straight_edge,
             shortened: None,
+            floquet: None,
             scene: scene.clone(),
             estimated_relative_error: Some(estimated_relative_error),
             estimates: Some(estimates),
@@ -248,6 +253,7 @@ impl Analysis {
     fn completed(mut self, detail: Detail, listed: Option<Listed>) -> Result<Self, AnalysisError> {
         if let Some(speed) = self.scene.operating_rad_per_s() {
             self.look_at_operating(speed)?;
+            self.look_at_slots(speed);
         }
         if let Some(listed) = listed {
             self.close_list(listed)?;
@@ -323,6 +329,19 @@ impl Analysis {
         Ok(())
     }
 
+    /// Computes the growth of a slotted saw beside guides at a speed, where no band decides.
+    pub(crate) fn look_at_slots(&mut self, speed_rad_per_s: f64) {
+        self.floquet = None;
+        if self.scene.file().slot_passing().is_none() {
+            return;
+        }
+        let state = self.verdict(speed_rad_per_s).state;
+        if matches!(state, StabilityState::Stable | StabilityState::NotCovered) {
+            let plate = &self.model.plate;
+            self.floquet = Some(NearbyGrowth::new(&self.scene, plate, speed_rad_per_s));
+        }
+    }
+
     /// Every band of instability within the range of speeds, by onset.
     pub fn bands(&self) -> &[Instability] {
         &self.chart.instabilities
@@ -385,6 +404,7 @@ impl Analysis {
                 .scene
                 .file()
                 .covered_to(critical_rad_per_s.first().copied()),
+            floquet: self.floquet.and_then(Result::ok),
         }
     }
 }

@@ -55,7 +55,7 @@ impl ListedBand {
 
 /// Share of the threshold from which growth is felt: with the usual threshold of 0.25 1/s a motion doubles in 280 s at this share, which
 /// is longer than a cut.
-const FELT: f64 = 0.01;
+pub(super) const FELT: f64 = 0.01;
 
 impl Instability {
     /// Intervals of speed in which the growth of the band is felt, ascending, in rad/s; those in which it counts are among them.

@@ -22,6 +22,7 @@ mod error;
 mod estimate;
 mod excitation;
 mod expected_work;
+mod floquet;
 mod group;
 mod growing_modes;
 mod growth_curve;
@@ -70,6 +71,7 @@ pub use excitation::Crossing;
 #[doc(hidden)]
 pub use excitation::crossings;
 pub use expected_work::ExpectedWork;
+pub use floquet::{FloquetGrowth, GuidedBlade, NearbyGrowth, NotComputed};
 pub(crate) use growing_modes::GrowingModes;
 pub use heat::{HeatCurve, HeatLimit, HeatLimits};
 pub use instability_kind::InstabilityKind;

@@ -15,6 +15,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::band::{CurvePoint, Instability};
+use super::floquet::{FloquetGrowth, NearbyGrowth};
 use super::instability_kind::InstabilityKind;
 use super::interpolation::Cubic;
 use super::listed_band::ListedBand;
@@ -43,7 +44,8 @@ pub enum StabilityState {
     TooClose,
     /// The search for bands failed: its bands contradict the eigenvalues.
     NotDetermined,
-    /// No band that counts, but slots of the blade pass guides, which the model does not cover at this speed.
+    /// No band that counts, but slots of the blade pass guides, which the model does not cover at this speed, or whose growth there is too
+    /// close to the threshold to call.
     NotCovered,
     /// The speed was not analysed.
     OutsideSweep,
@@ -71,6 +73,17 @@ impl StabilityState {
             StabilityState::Stable
         }
     }
+
+    /// The state of a slotted saw beside guides by its Floquet multipliers.
+    fn of_growth(growth: &FloquetGrowth, threshold_per_s: f64) -> Self {
+        if growth.growth_per_s >= threshold_per_s {
+            StabilityState::Flutter
+        } else if growth.growth_per_s + growth.error_per_s >= threshold_per_s {
+            StabilityState::NotCovered
+        } else {
+            StabilityState::Stable
+        }
+    }
 }
 
 /// Whether a saw is stable at one speed, and which band decides it.
@@ -86,6 +99,8 @@ pub struct Verdict {
     pub undecided: Option<Edge>,
     /// Index of the critical speed within 5 % of the speed; of several, the nearest.
     pub critical: Option<usize>,
+    /// The fastest growth by Floquet multipliers, where it decides.
+    pub floquet: Option<FloquetGrowth>,
 }
 
 /// Results from which a verdict follows.
@@ -103,6 +118,8 @@ pub struct Evidence<'a> {
     pub range_rad_per_s: SpeedRange,
     /// Speed up to which a saw without a band is stable, in rad/s: infinite unless slots pass guides.
     pub covered_to_rad_per_s: f64,
+    /// Growth by Floquet multipliers at and beside a speed, if it was computed: there it decides in place of that speed.
+    pub floquet: Option<NearbyGrowth>,
 }
 
 /// Index of the critical speed within 5 % of a speed; of several, the nearest. All speeds have the same unit.
@@ -131,13 +148,19 @@ impl Evidence<'_> {
         let is_determined = !self.has_failed;
         let worst = worst.filter(|_| is_determined);
         let undecided = undecided(self.edges(), speed_rad_per_s).filter(|_| is_determined);
+        let is_open = is_determined && undecided.is_none() && worst.is_none();
+        let floquet = self.floquet.filter(|nearby| {
+            is_open && around(&self.range_rad_per_s) && nearby.contains(speed_rad_per_s)
+        });
+        let floquet = floquet.map(|nearby| nearby.fastest());
         let state = match worst {
             _ if !is_determined && around(&self.range_rad_per_s) => StabilityState::NotDetermined,
             _ if undecided.is_some() => StabilityState::TooClose,
             Some((_, band, _)) => StabilityState::within([band.kind]),
-            None if around(&self.range_rad_per_s) => {
-                StabilityState::of_none(speed_rad_per_s, self.covered_to_rad_per_s)
-            }
+            None if around(&self.range_rad_per_s) => match &floquet {
+                Some(growth) => StabilityState::of_growth(growth, self.threshold_per_s),
+                None => StabilityState::of_none(speed_rad_per_s, self.covered_to_rad_per_s),
+            },
             None => StabilityState::OutsideSweep,
         };
         Verdict {
@@ -146,6 +169,23 @@ impl Evidence<'_> {
             stretch: worst.map(|(_, _, stretch)| stretch),
             undecided,
             critical: critical_at(self.critical_rad_per_s, speed_rad_per_s),
+            floquet,
+        }
+    }
+
+    /// Ranges of speed, in rad/s, in which slots pass guides and it is not known that no motion grows, or known that one does.
+    pub(crate) fn not_passed(&self) -> Vec<[f64; 2]> {
+        let covered = self.covered_to_rad_per_s;
+        let Some(nearby) = &self.floquet else {
+            return vec![[covered, f64::INFINITY]];
+        };
+        let [from, to] = nearby.ends();
+        let growth = nearby.fastest();
+        let state = StabilityState::of_growth(&growth, self.threshold_per_s);
+        if state == StabilityState::Stable && !growth.is_felt(self.threshold_per_s) {
+            vec![[covered, from], [covered.max(to), f64::INFINITY]]
+        } else {
+            vec![[from, to], [covered, f64::INFINITY]]
         }
     }
 
@@ -181,7 +221,14 @@ impl Evidence<'_> {
             };
             window.within(beside)
         });
-        Some(window)
+        // Beyond the speeds that the model covers a window has those for which multipliers were computed.
+        let passed = self
+            .floquet
+            .filter(|_| speed_rad_per_s > self.covered_to_rad_per_s);
+        Some(passed.map_or(window, |nearby| {
+            let [from, to] = nearby.ends();
+            window.within(SpeedRange::new(from, to))
+        }))
     }
 }
 
@@ -334,6 +381,7 @@ mod tests {
             threshold_per_s: 0.25,
             range_rad_per_s: SpeedRange::new(0.0, 300.0),
             covered_to_rad_per_s: f64::INFINITY,
+            floquet: None,
         }
     }
 

@@ -37,6 +37,7 @@ mod saws;
 mod sensitivity;
 mod shapes;
 mod slots;
+mod slots_beside_guides;
 mod spline;
 mod static_deflection;
 mod thickness_profile;

@@ -65,6 +65,7 @@ pub fn dense_analysis(
     let chart = chart(&model, range, speeds, &|_, _| ()).unwrap();
     Analysis {
         shortened: None,
+        floquet: None,
         model,
         range_rad_per_s: range,
         complete_to_rad_per_s: range.to_rad_per_s,

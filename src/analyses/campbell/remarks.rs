@@ -129,7 +129,7 @@ pub fn warnings(
         lifting_off(scene),
         sagging(analysis),
         rolled_alone(scene),
-        passing(scene),
+        passing(scene, analysis),
         slotted(&analysis.model.plate),
         loaded(scene),
     ];

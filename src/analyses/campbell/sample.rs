@@ -73,6 +73,7 @@ pub fn empty_report(name: &str) -> Report {
             allowed_by: None,
             windows_rpm: Vec::new(),
             limits: Vec::new(),
+            floquet: None,
         },
         operating: None,
         whirl: None,

@@ -1,8 +1,9 @@
 //! Remarks on slots: what the model makes of them, and what it does not cover.
 
 use crate::model::plate::Plate;
-use crate::model::scene::{Scene, SceneFile, SlotPassing};
+use crate::model::scene::{Scene, SceneFile, SlotPassing, rpm};
 use crate::page::text::shown_to;
+use crate::stability::Analysis;
 
 /// Share of a wave in one mode below which the wave is said to be mixed with others.
 const MIXED: f64 = 0.9;
@@ -49,7 +50,7 @@ pub(super) fn slotted(plate: &Plate) -> Option<String> {
 }
 
 /// Says what is not covered where slots pass guides.
-pub(super) fn passing(scene: &Scene) -> Option<String> {
+pub(super) fn passing(scene: &Scene, analysis: &Analysis) -> Option<String> {
     let where_covered = match scene.file().slot_passing()? {
         SlotPassing::Inside => {
             "all guides end well inside the slots, where this matters above the first critical speed: no speed above it is called stable"
@@ -58,9 +59,20 @@ pub(super) fn passing(scene: &Scene) -> Option<String> {
             "a guide or wood lies beside the slots or close to their ends, where most speeds may grow: no speed is called stable"
         }
     };
+    let computed = match &analysis.floquet {
+        None => "is not computed".to_owned(),
+        Some(Err(why)) => format!("is not computed, not at the operating speed either: {why}"),
+        Some(Ok(nearby)) => {
+            let operating = rpm(nearby.at[1].speed_rad_per_s);
+            format!(
+                "is computed by Floquet multipliers of the slotted blade at {} rpm and 1 % beside it alone",
+                shown_to(6, operating)
+            )
+        }
+    };
     Some(format!(
-        "slots turn and guides do not, so that vibrations may also grow at speeds outside the listed bands (parametric resonance), which is \
-         not computed; {where_covered}"
+        "slots turn and guides do not, so that vibrations may also grow at speeds outside the listed bands (parametric resonance), which \
+         {computed}; elsewhere {where_covered}"
     ))
 }
 

@@ -68,7 +68,11 @@ pub enum CheckError {
 /// # Errors
 /// [`CheckError`] when the saw cannot be analysed that far.
 pub fn check(scene: &Scene, limits: &Limits) -> Result<CheckReport, CheckError> {
-    let analysis = &analysed(scene, limits)?;
+    let mut analysis = analysed(scene, limits)?;
+    if analysis.scene.operating_rad_per_s() != Some(limits.operating_rad_per_s) {
+        analysis.look_at_slots(limits.operating_rad_per_s);
+    }
+    let analysis = &analysis;
     let angle = scene.cut_angle_rad();
     let plate = &point_load_plate(&analysis.scene, analysis.model.plate.resolution);
     let critical = analysis.critical_rad_per_s();

@@ -99,6 +99,7 @@ impl Question {
             threshold_per_s: threshold,
             range_rad_per_s: self.range,
             covered_to_rad_per_s: covered_to,
+            floquet: None,
         };
         let around = demands.around_rad_per_s;
         let window = around.and_then(|speed| evidence.window_without_instability(speed));

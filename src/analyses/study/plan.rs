@@ -227,6 +227,7 @@ impl Study {
             threshold_per_s: 0.0,
             range_rad_per_s: SpeedRange::new(0.0, self.to_rad_per_s),
             covered_to_rad_per_s: f64::INFINITY,
+            floquet: None,
         };
         let criteria = self.limits.map(|limits| {
             let judge = Judge {

@@ -210,6 +210,7 @@ impl Study {
             covered_to_rad_per_s: scene
                 .file()
                 .covered_to(onsets.critical_rad_per_s.first().copied()),
+            floquet: None,
         };
         let gap = match (self.gap(), self.basis()) {
             (Some(case), Some(basis)) => {

@@ -97,9 +97,16 @@ fn excluded(judge: &Judge<'_>, limits: &[Criterion]) -> Vec<Excluded> {
     let limit = judge.limits.max_rim_m_per_s();
     let rim = format!("rim speed of {} m/s", shown(limit));
     above(limit / judge.rim_radius_m, rim);
-    if found.covered_to_rad_per_s.is_finite() {
-        above(found.covered_to_rad_per_s, "slots pass guides".to_owned());
-    }
+    let passed = found.not_passed().into_iter();
+    all.extend(
+        passed
+            .filter(|[from, to]| from < to)
+            .map(|[from, to]| Excluded {
+                from,
+                to,
+                by: "slots pass guides".to_owned(),
+            }),
+    );
     let percent = shown(1e2 * CRITICAL_MARGIN);
     all.extend(found.critical_rad_per_s.iter().map(|critical| Excluded {
         from: (1.0 - CRITICAL_MARGIN) * critical,

@@ -3,7 +3,7 @@
 use super::allowed::allowed;
 use super::criterion::{MARGIN, STABILITY};
 use super::judge::{FREE, Judge, SEARCH_FAILED};
-use super::{Criterion, Verdict};
+use super::{Criterion, FloquetEntry, Verdict};
 use crate::model::scene::rpm;
 use crate::stability::StabilityState;
 
@@ -46,6 +46,10 @@ impl Judge<'_> {
                 .map(|w| w.map(rpm))
                 .collect(),
             limits,
+            floquet: speed_rad_per_s.and_then(|speed| {
+                let nearby = self.found.floquet.filter(|nearby| nearby.contains(speed));
+                nearby.as_ref().map(FloquetEntry::new)
+            }),
         }
     }
 

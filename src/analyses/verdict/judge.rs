@@ -1,7 +1,7 @@
 //! What is known of a saw, and the limits by which it is judged.
 
 use super::criterion::{CRITICAL, MARGIN, STABILITY};
-use super::words::{apart, near_critical, too_close, typed_rpm};
+use super::words::{apart, by_floquet, near_critical, too_close, typed_rpm};
 use super::{Answer, Criterion, LimitSource};
 use crate::model::scene::{Accuracy, LimitsFile, rpm};
 use crate::page::text::{shown, shown_to};
@@ -79,12 +79,18 @@ impl Judge<'_> {
                 (Answer::AtRisk, format!("too close to call: {why}"), None)
             }
             (StabilityState::NotDetermined, ..) => (Answer::AtRisk, SEARCH_FAILED.to_owned(), None),
-            (StabilityState::NotCovered, ..) => (
-                Answer::AtRisk,
-                "not certain: slots pass guides, which the model does not cover at this speed"
-                    .to_owned(),
-                None,
-            ),
+            (StabilityState::NotCovered, ..) => {
+                let words = match &verdict.floquet {
+                    Some(found) => format!(
+                        "not certain: by Floquet multipliers the growth of {} ± {} 1/s is too close to {} 1/s to call",
+                        shown_to(3, found.growth_per_s),
+                        shown_to(2, found.error_per_s),
+                        self.found.threshold_per_s
+                    ),
+                    None => "not certain: slots pass guides, which the model does not cover at this speed".to_owned(),
+                };
+                (Answer::AtRisk, words, None)
+            }
             (StabilityState::OutsideSweep, ..) => {
                 let [from, to] = found.range_rad_per_s.ends().map(rpm);
                 let words = format!(
@@ -100,13 +106,26 @@ impl Judge<'_> {
                     Some(rpm(band.range.from_rad_per_s)),
                 )
             }
+            (StabilityState::Flutter, None, _) => {
+                let words = verdict.floquet.as_ref().map(by_floquet);
+                let at = verdict.floquet.map(|growth| rpm(growth.speed_rad_per_s));
+                (Answer::No, words.unwrap_or_default(), at)
+            }
             _ => match weak() {
                 Some(band) => {
                     let threshold = found.threshold_per_s;
                     let words = format!("{}, less than {threshold} 1/s", grows(band));
                     (Answer::AtRisk, words, Some(rpm(band.range.from_rad_per_s)))
                 }
-                None => (Answer::Yes, "no motion grows".to_owned(), None),
+                None => match &verdict.floquet {
+                    Some(growth) if growth.is_felt(found.threshold_per_s) => {
+                        let threshold = found.threshold_per_s;
+                        let words = format!("{}, less than {threshold} 1/s", by_floquet(growth));
+                        (Answer::AtRisk, words, Some(rpm(growth.speed_rad_per_s)))
+                    }
+                    Some(_) => (Answer::Yes, QUIET_BY_FLOQUET.to_owned(), None),
+                    None => (Answer::Yes, "no motion grows".to_owned(), None),
+                },
             },
         };
         Criterion {
@@ -244,6 +263,9 @@ pub(crate) const OPEN_CAUSES: [&str; 4] = [
     "not_covered",
     "outside_sweep",
 ];
+
+/// The finding for a slotted saw beside guides of which no motion grows.
+const QUIET_BY_FLOQUET: &str = "no motion grows while slots pass the guides, by Floquet multipliers at this speed and 1 % beside it";
 
 pub(super) const FREE: &str = "nothing holds the blade's rigid motions";
 

@@ -9,6 +9,7 @@ mod allowed;
 mod answer;
 mod criterion;
 mod decision;
+mod floquet;
 mod judge;
 mod report;
 #[cfg(test)]
@@ -18,6 +19,7 @@ mod words;
 pub use answer::Answer;
 pub(crate) use criterion::{CRITICAL, MARGIN};
 pub use criterion::{Criterion, LimitSource};
+pub use floquet::FloquetEntry;
 pub(crate) use judge::{Judge, OPEN_CAUSES};
 pub use report::Verdict;
 pub(crate) use words::near_critical;

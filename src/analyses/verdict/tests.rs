@@ -2,7 +2,7 @@
 
 use super::{Answer, Judge, Verdict};
 use crate::model::scene::{Accuracy, LimitsFile, SpeedRange, rad_per_s};
-use crate::stability::{Evidence, InstabilityKind, ListedBand};
+use crate::stability::{Evidence, FloquetGrowth, InstabilityKind, ListedBand, NearbyGrowth};
 
 /// A band of flutter in rpm, with a growth rate in 1/s, that counts from 0.25 1/s on.
 fn flutter(from: f64, to: f64, growth: f64, error: Option<f64>) -> ListedBand {
@@ -25,6 +25,7 @@ struct Saw {
     has_failed: bool,
     is_held: bool,
     covered_to_rpm: f64,
+    floquet: Option<NearbyGrowth>,
 }
 
 impl Saw {
@@ -36,6 +37,7 @@ impl Saw {
             has_failed: false,
             is_held: true,
             covered_to_rpm: f64::INFINITY,
+            floquet: None,
         }
     }
 
@@ -55,6 +57,7 @@ impl Saw {
             threshold_per_s: 0.25,
             range_rad_per_s: SpeedRange::new(0.0, rad_per_s(5000.0)),
             covered_to_rad_per_s: rad_per_s(self.covered_to_rpm),
+            floquet: self.floquet,
         };
         let judge = Judge {
             found: &found,
@@ -221,4 +224,49 @@ fn the_headline_says_answer_reason_and_the_highest_speed() {
         ..Saw::new(Vec::new())
     };
     assert!(nothing.at(3000.0).headline().starts_with("Can it run at 3000 rpm? YES: no motion grows; it can run up to 3183 rpm (rim speed of 100 m/s)"));
+}
+
+/// Growth of a slotted saw by Floquet multipliers at 1300 rpm and 1 % beside it, of which the second is the fastest.
+fn by_floquet(growth_per_s: f64, error_per_s: f64) -> Saw {
+    let at = |share: f64, growth_per_s: f64| FloquetGrowth {
+        speed_rad_per_s: share * rad_per_s(1300.0),
+        growth_per_s,
+        error_per_s,
+        coordinates: 48,
+        steps: 600,
+    };
+    let beside = growth_per_s - 0.5;
+    Saw {
+        covered_to_rpm: 1200.0,
+        floquet: Some(NearbyGrowth {
+            at: [at(0.99, beside), at(1.0, growth_per_s), at(1.01, beside)],
+        }),
+        ..Saw::new(Vec::new())
+    }
+}
+
+#[test]
+fn multipliers_decide_where_slots_pass_guides() {
+    for (growth, error, expected) in [
+        (-1.0, 0.1, (Answer::Yes, "none")),
+        (0.0, 0.1, (Answer::Yes, "none")),
+        (0.1, 0.0, (Answer::AtRisk, "weak_flutter")),
+        (0.2, 0.1, (Answer::AtRisk, "not_covered")),
+        (0.3, 0.1, (Answer::No, "flutter")),
+    ] {
+        let saw = by_floquet(growth, error);
+        let verdict = saw.at(1300.0);
+        assert_eq!(said(&verdict), (Some(expected.0), expected.1), "{growth}");
+        assert!(verdict.floquet.is_some());
+        assert!(close(verdict.allowed_to_rpm, 1200.0));
+        let is_window = verdict.windows_rpm.len() == 2;
+        assert_eq!(is_window, expected.0 == Answer::Yes, "{growth}");
+        // At other speeds nothing is known.
+        let other = saw.at(1400.0);
+        assert_eq!(said(&other), (Some(Answer::AtRisk), "not_covered"));
+        assert!(other.floquet.is_none());
+    }
+    assert!(by_floquet(0.3, 0.1).at(1300.0).reason.starts_with(
+        "a vibration grows by 0.3 ± 0.1 1/s at 1300 rpm while slots pass the guides, by Floquet multipliers"
+    ));
 }

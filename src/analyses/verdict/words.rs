@@ -2,7 +2,7 @@
 
 use crate::model::scene::{Accuracy, rpm};
 use crate::page::text::shown_to;
-use crate::stability::CRITICAL_MARGIN;
+use crate::stability::{CRITICAL_MARGIN, FloquetGrowth};
 
 /// Says that a speed is close to a critical speed.
 pub(crate) fn near_critical(critical_rpm: f64) -> String {
@@ -28,6 +28,16 @@ pub(crate) fn sharper(accuracy: Accuracy) -> &'static str {
         Accuracy::Design => "use --accuracy reference",
         Accuracy::Reference => "give a smaller --tolerance",
     }
+}
+
+/// The growth of a slotted saw while its slots pass guides.
+pub(super) fn by_floquet(growth: &FloquetGrowth) -> String {
+    format!(
+        "a vibration grows by {} ± {} 1/s at {} rpm while slots pass the guides, by Floquet multipliers",
+        shown_to(3, growth.growth_per_s),
+        shown_to(2, growth.error_per_s),
+        typed_rpm(growth.speed_rad_per_s)
+    )
 }
 
 /// A speed in rpm with six digits, so that the rounding error of conversion to rad/s and back is not visible.

@@ -55,6 +55,7 @@ impl Ahead {
                 threshold_per_s,
                 range_rad_per_s: interim.range_rad_per_s,
                 covered_to_rad_per_s: scene.file().covered_to(critical.first().copied()),
+                floquet: None,
             };
             ahead.add_bands(bands, &evidence);
             let judge = Judge {
@@ -65,7 +66,9 @@ impl Ahead {
                 accuracy: scene.accuracy(),
             };
             let verdict = || Told::verdict(&judge.verdict(operating, Vec::new()));
-            ahead.verdict = operating.map(|_| verdict());
+            // Multipliers of slotted saws beside guides come with the complete diagram.
+            let is_known = scene.file().slot_passing().is_none();
+            ahead.verdict = operating.filter(|_| is_known).map(|_| verdict());
         }
         ahead
     }

@@ -32,7 +32,7 @@ mod stress;
 mod stretching;
 
 pub use contact::{Contact, ContactTerms};
-pub(crate) use contact::{GapPotential, pad_force};
+pub(crate) use contact::{GapPotential, PadPoint, pad_force, pad_points};
 #[doc(hidden)]
 pub use edge_load::{BoreForce, EdgeStress, RimForce, edge_stiffness};
 #[doc(hidden)]
@@ -43,7 +43,10 @@ pub(crate) use membrane::{MembraneSource, MembraneStress, heated_disk, membrane_
 pub use resolution::Resolution;
 pub(crate) use resolution::{MOST_DIAMETERS, MOST_UNKNOWNS};
 #[doc(hidden)]
-pub use slots::{Branch as SlottedBranch, MeanStress, SlottedBlade};
+pub use slots::{
+    Branch as SlottedBranch, MeanStress, SlottedBlade, TurningBlade, TurningCircle, TurningMode,
+    TurningModes,
+};
 pub use stretching::{ReducedStretching, Stretching, StretchingError};
 
 #[cfg(test)]

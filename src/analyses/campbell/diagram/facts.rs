@@ -44,7 +44,11 @@ pub fn facts(report: &Report) -> Vec<String> {
 
 /// Speeds at which the bands of a slotted saw are not certain.
 fn not_covered(report: &Report) -> Option<String> {
-    match report.scene.slot_passing()? {
+    let passing = report.scene.slot_passing()?;
+    if let (Some(_), Some(rpm)) = (&report.verdict.floquet, report.verdict.rpm) {
+        return Some(format!("slots pass guides: certain at {rpm:.0} rpm alone"));
+    }
+    match passing {
         SlotPassing::Inside => {
             Some("slots pass guides: not certain above the first critical speed".to_owned())
         }

@@ -40,7 +40,9 @@ fn at_operating_speed(text: &mut Outline, report: &Report, operating: &Operating
     for words in open(report) {
         text.reason(words);
     }
-    if let (Some(growth), Some(hz)) = (operating.growth_per_s, operating.frequency_hz) {
+    // The modes are those of the axisymmetric blade, to which multipliers of the slotted one are preferred.
+    let modes = operating.growth_per_s.zip(operating.frequency_hz);
+    if let Some((growth, hz)) = modes.filter(|_| report.verdict.floquet.is_none()) {
         text.reason(fastest(report, growth, hz, band.is_some()));
     }
     if let Some(words) = usable(report, operating) {
@@ -59,10 +61,11 @@ fn at_operating_speed(text: &mut Outline, report: &Report, operating: &Operating
 /// What leaves the verdict open, and the remedy.
 fn open(report: &Report) -> impl Iterator<Item = String> {
     let failed = report.certificate.has_failed().then(|| failed(report));
-    let passing = report
-        .scene
-        .slot_passing()
-        .map(|of| of.in_words().to_owned());
+    let by_floquet = report.verdict.floquet.as_ref().map(|of| of.in_words());
+    let passing = by_floquet.or_else(|| {
+        let passing = report.scene.slot_passing()?;
+        Some(passing.in_words().to_owned())
+    });
     failed.into_iter().chain(passing)
 }
 

@@ -6,12 +6,14 @@ mod gap;
 mod guide;
 mod lifting;
 mod patch;
+mod points;
 mod terms;
 mod wood;
 
 pub use gap::GapPotential;
 pub(crate) use guide::pad_force;
 pub use lifting::LiftingPads;
+pub(crate) use points::{PadPoint, pad_points};
 pub use terms::ContactTerms;
 
 use super::matrices::Plate;

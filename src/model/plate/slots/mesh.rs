@@ -2,6 +2,8 @@
 
 use std::f64::consts::PI;
 
+use crate::model::scene::{Blade, Slots};
+
 /// Size of the elements at the slot's end, relative to the smallest of depth, bridge to the bore and half a pitch. The moments there
 /// grow as the inverse root of the distance, so that the error of frequencies is of first order in this size.
 const AT_END: f64 = 2e-3;
@@ -16,6 +18,8 @@ const IN_WAVE: f64 = 8.0;
 const OVER_RING: f64 = 16.0;
 const ALONG_PITCH: f64 = 8.0;
 
+/// Least number of nodal diameters up to which c_n is computed, and the largest one: up to the number of slots between them.
+const DIAMETERS: (usize, usize) = (12, 24);
 /// Half a pitch of a slotted ring: the angle runs from the middle between two slots to a slot.
 pub struct Mesh {
     /// Edges of the elements over the radius, in m.
@@ -27,9 +31,18 @@ pub struct Mesh {
 }
 
 impl Mesh {
+    /// The mesh of a blade with slots, and the number of nodal diameters for which it is fine enough.
+    pub fn of(blade: &Blade, slots: &Slots) -> (Self, usize) {
+        let (least, most) = DIAMETERS;
+        let most = (slots.count as usize).clamp(least, most);
+        let end_radius_m = blade.outer_radius_m - slots.depth_m;
+        let mesh = Mesh::new(&blade.edges_m(), end_radius_m, slots.count, most);
+        (mesh, most)
+    }
+
     /// The mesh of a ring with `count` slots that end at a radius, for waves of up to `most` nodal diameters. The radii of `knots_m`,
     /// which begin with the inner edge and end with the rim, become edges of elements.
-    pub fn new(knots_m: &[f64], end_radius_m: f64, count: u32, most: usize) -> Self {
+    fn new(knots_m: &[f64], end_radius_m: f64, count: u32, most: usize) -> Self {
         let (inner, outer) = (knots_m[0], knots_m[knots_m.len() - 1]);
         let half_pitch = PI / f64::from(count);
         let arc = half_pitch * end_radius_m;

@@ -9,28 +9,35 @@
 //! The blade of the analysis remains axisymmetric, with c_n K_b of the lower branch in place of K_b, and the mean stress in K_σ. Measured
 //! against a plate with cuts that turns, critical speeds of n = 2 to 5 are within 0.7 % (docs/explanation/model.md).
 //!
+//! Beside guides, which are fixed in space while slots turn, the modes of the slotted blade itself are needed, in its own frame and in its
+//! own stress (`turning`).
+//!
 //! References: F. K. Bogner, R. L. Fox & L. A. Schmit, *The generation of interelement-compatible stiffness and mass matrices by the
 //! use of interpolation formulae*, Proc. Conf. Matrix Methods in Structural Mechanics, 1965, 397–443; D. L. Thomas, *Dynamics of
 //! rotationally periodic structures*, Int. J. Numer. Meth. Eng. 14 (1979), 81–102.
 
 mod chain;
 mod elements;
+mod krylov;
 mod mesh;
+mod plane;
 mod stress;
 mod symmetry;
+mod turning;
+mod turning_circle;
 mod waves;
 
 use std::sync::{Arc, Mutex, PoisonError};
 
-use crate::model::scene::{Blade, Bore, InPlane, Slots};
+use crate::model::scene::{Blade, Slots};
 use mesh::Mesh;
+use plane::PlaneStress;
 pub use stress::MeanStress;
-use symmetry::Held;
+pub use turning::{TurningBlade, TurningMode, TurningModes};
+pub use turning_circle::TurningCircle;
 pub use waves::Branch;
 use waves::Slotted;
 
-/// Least number of nodal diameters up to which c_n is computed, and the largest one: up to the number of slots between them.
-const DIAMETERS: (usize, usize) = (12, 24);
 /// Blades kept, so that scenes that differ in other things share the work.
 const KEPT: usize = 16;
 
@@ -66,17 +73,8 @@ impl SlottedBlade {
     }
 
     fn new(blade: &Blade, slots: &Slots) -> Self {
-        let (least, most) = DIAMETERS;
-        let most = (slots.count as usize).clamp(least, most);
-        let end_radius_m = blade.outer_radius_m - slots.depth_m;
-        let mesh = Mesh::new(&blade.edges_m(), end_radius_m, slots.count, most);
-        let held = match (blade.bore, blade.clamp_n_m_per_rad_per_m) {
-            (Bore::Free, _) => Held::Nothing,
-            (Bore::Clamped(_), Some(_)) => Held::Deflection,
-            (Bore::Clamped(_), None) => Held::Slope,
-        };
-        let is_fixed = blade.bore == Bore::Clamped(InPlane::Fixed);
-        let found = Slotted::new(blade, &mesh, slots.count, held).branches(most);
+        let (mesh, most) = Mesh::of(blade, slots);
+        let found = Slotted::new(blade, &mesh, slots.count).branches(most);
         let mut waves: Vec<Vec<Branch>> = found.into_iter().map(|(_, branches)| branches).collect();
         if waves.len() <= most {
             let unknown = Branch {
@@ -88,7 +86,7 @@ impl SlottedBlade {
         (waves.iter_mut()).for_each(|own| own.sort_by(|x, y| x.bending.total_cmp(&y.bending)));
         let lowest = waves.iter().filter_map(|own| own.first());
         SlottedBlade {
-            stress: MeanStress::new(blade, &mesh, is_fixed),
+            stress: MeanStress::new(&PlaneStress::new(blade, &mesh)),
             beyond: lowest.map(|branch| branch.bending).fold(f64::NAN, f64::min),
             waves,
         }

@@ -12,6 +12,7 @@
 use std::f64::consts::PI;
 
 use super::chain::Place;
+use crate::model::scene::{Blade, Bore};
 
 /// Parts of a deflection on half a pitch.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -100,6 +101,17 @@ pub enum Held {
     Deflection,
     /// No deflection and no slope.
     Slope,
+}
+
+impl Held {
+    /// The condition of a blade.
+    pub fn of(blade: &Blade) -> Self {
+        match (blade.bore, blade.clamp_n_m_per_rad_per_m) {
+            (Bore::Free, _) => Held::Nothing,
+            (Bore::Clamped(_), Some(_)) => Held::Deflection,
+            (Bore::Clamped(_), None) => Held::Slope,
+        }
+    }
 }
 
 /// Numbers of the unknowns of a class; a block is a circle.

@@ -11,6 +11,7 @@ use faer::{Mat, Par, Side};
 
 use super::chain::{Chain, Place};
 use super::elements::{Around, Bending, hermite, specific_rigidity};
+use super::krylov::krylov;
 use super::mesh::Mesh;
 use super::symmetry::{Class, Held, OF_NODE, Part, Unknowns};
 use crate::model::linalg::SymmetricEigen;
@@ -19,23 +20,18 @@ use crate::model::scene::Blade;
 /// Waves of a number of diameters and circles that the modes are composed of at first, and of how many diameters more than wanted.
 const CIRCLES: usize = 2;
 const MORE: usize = 6;
-/// Number of blocks of the Krylov space. With 3 the c_n of waves that are not mixed are those with 6 to 1e-5, with 2 to 1e-4.
-const BLOCKS: usize = 3;
 /// Power of the shares in the mean. With four slots of 70 mm in a ring of 150 mm, where a mode has 0.77 of the wave of n = 5, the fourth
 /// power leaves an error of 1.3e-3 of its frequency.
 const SHARPNESS: i32 = 8;
-/// Length of a vector, relative to its length before, from which on it is within the span of the others.
-const DEPENDENT: f64 = 1e-8;
-
 /// A ring with its elements.
 pub struct Slotted<'a> {
     mesh: &'a Mesh,
-    held: Held,
+    pub held: Held,
     count: usize,
     rows: Vec<Bending>,
     around: Vec<Around<4>>,
     /// Shift σ of the stiffness, in 1/s²: a free ring has rigid motions.
-    shift: f64,
+    pub shift: f64,
 }
 
 /// A plain wave: its ω² and the deflection and slope over the radius at the edges of the elements.
@@ -56,7 +52,8 @@ pub struct Branch {
 
 impl<'a> Slotted<'a> {
     /// The elements of a ring with `count` slots.
-    pub fn new(blade: &Blade, mesh: &'a Mesh, count: u32, held: Held) -> Self {
+    pub fn new(blade: &Blade, mesh: &'a Mesh, count: u32) -> Self {
+        let held = Held::of(blade);
         let edges = mesh.radii_m.windows(2).enumerate();
         Slotted {
             mesh,
@@ -74,7 +71,15 @@ impl<'a> Slotted<'a> {
     }
 
     /// The lowest waves of the plain ring on n diameters that bend it, one for each number of circles.
-    pub fn plain(&self, n: usize) -> Vec<PlainWave> {
+    fn plain(&self, n: usize) -> Vec<PlainWave> {
+        let is_rigid = self.held == Held::Nothing && n < 2;
+        let rigid = usize::from(is_rigid);
+        let all = self.lowest(n, rigid + CIRCLES).into_iter();
+        all.skip(rigid).collect()
+    }
+
+    /// So many lowest waves of the plain ring on n diameters, with those of a free ring that do not bend it.
+    pub fn lowest(&self, n: usize, count: usize) -> Vec<PlainWave> {
         let size = 2 * self.mesh.radii_m.len();
         let mut matrices: [Mat<f64>; 2] = [0, 1].map(|_| Mat::zeros(size, size));
         for (i, row) in self.rows.iter().enumerate() {
@@ -95,12 +100,7 @@ impl<'a> Slotted<'a> {
         let Some(ritz) = pencil(&stiffness, &mass, self.shift) else {
             return Vec::new();
         };
-        let rigid = if self.held == Held::Nothing && n < 2 {
-            1
-        } else {
-            0
-        };
-        (rigid..(rigid + CIRCLES).min(free))
+        (0..count.min(free))
             .map(|k| {
                 let mut shape = vec![0.0; first];
                 shape.extend(ritz.vectors.col(k).iter());
@@ -146,27 +146,8 @@ impl<'a> Slotted<'a> {
         let own: Vec<(&PlainWave, f64)> = (waves.iter().flatten())
             .filter_map(|wave| Some((wave, class.sign_of(wave.diameters)?)))
             .collect();
-        let mut start = Mat::zeros(stiffness.order(), own.len());
-        for (column, (wave, sign)) in own.iter().enumerate() {
-            for (index, value) in self.deflection(class, &unknowns, wave, *sign) {
-                start[(stiffness.index(index), column)] += value;
-            }
-        }
-        let factors = stiffness.plus(self.shift, &mass).factorized()?;
-        let mut space: Vec<Mat<f64>> = Vec::new();
-        let mut next = start.clone();
-        for _ in 0..BLOCKS {
-            let block = orthonormal(&mass, &space, next)?;
-            next = factors.solved(&mass.times(&block));
-            space.push(block);
-        }
-        let columns: usize = space.iter().map(Mat::ncols).sum();
-        let mut basis = Mat::zeros(stiffness.order(), columns);
-        let mut first = 0;
-        for block in &space {
-            basis.subcols_mut(first, block.ncols()).copy_from(block);
-            first += block.ncols();
-        }
+        let start = self.start(class, &unknowns, &stiffness, &own);
+        let basis = krylov([&stiffness, &mass], self.shift, &start)?;
         let energy = basis.transpose() * stiffness.times(&basis);
         let ritz = SymmetricEigen::new(energy.as_ref()).ok()?;
         let inertia = mass.times(&start);
@@ -198,8 +179,25 @@ impl<'a> Slotted<'a> {
         Some(own.iter().enumerate().filter_map(lowest_of).collect())
     }
 
+    /// Plain waves, each with its sign in the class, in the unknowns of the class.
+    pub fn start(
+        &self,
+        class: &Class,
+        unknowns: &Unknowns,
+        stiffness: &Chain,
+        waves: &[(&PlainWave, f64)],
+    ) -> Mat<f64> {
+        let mut start = Mat::zeros(stiffness.order(), waves.len());
+        for (column, (wave, sign)) in waves.iter().enumerate() {
+            for (index, value) in self.deflection(class, unknowns, wave, *sign) {
+                start[(stiffness.index(index), column)] += value;
+            }
+        }
+        start
+    }
+
     /// Stiffness and mass of a class.
-    fn matrices(&self, class: &Class, unknowns: &Unknowns) -> [Chain; 2] {
+    pub fn matrices(&self, class: &Class, unknowns: &Unknowns) -> [Chain; 2] {
         let mut matrices = [0, 1].map(|_| Chain::zeros(&unknowns.orders));
         let functions = || (0..16).map(|k| [k / 4, k % 4]);
         for part in 0..class.parts().len() {
@@ -259,38 +257,6 @@ impl<'a> Slotted<'a> {
         }
         values
     }
-}
-
-/// The columns of a matrix, orthonormal by the mass among themselves and with those of other blocks, without those that depend on
-/// others; `None` if a number is not finite.
-fn orthonormal(mass: &Chain, known: &[Mat<f64>], columns: Mat<f64>) -> Option<Mat<f64>> {
-    let mut columns = columns;
-    let length = |inertia: &Mat<f64>, own: &Mat<f64>, k: usize| -> f64 {
-        (0..own.nrows())
-            .map(|i| own[(i, k)] * inertia[(i, k)])
-            .sum()
-    };
-    let inertia = mass.times(&columns);
-    for k in 0..columns.ncols() {
-        let unit = length(&inertia, &columns, k).sqrt().recip();
-        (0..columns.nrows()).for_each(|i| columns[(i, k)] *= unit);
-    }
-    for _ in 0..2 {
-        for block in known {
-            let shares = block.transpose() * mass.times(&columns);
-            columns -= block * shares;
-        }
-        let gram = columns.transpose() * mass.times(&columns);
-        let eigen = SymmetricEigen::new(gram.as_ref()).ok()?;
-        let kept: Vec<usize> = (0..gram.nrows())
-            .filter(|k| eigen.values[*k] > DEPENDENT)
-            .collect();
-        let scaled = Mat::from_fn(gram.nrows(), kept.len(), |i, k| {
-            eigen.vectors[(i, kept[k])] / eigen.values[kept[k]].sqrt()
-        });
-        columns = columns * scaled;
-    }
-    Some(columns)
 }
 
 /// The eigenvalues of Kx = μMx, ascending, and vectors with xᵀMx = 1, by those of M with K + σM: the highest waves of small elements are
