@@ -207,7 +207,7 @@ fn ended_early(scene: &Scene, analysis: &Analysis, listed_critical: usize) -> Op
             "{listed_critical} critical speeds are below its end; name sweep.to_rpm for a longer one"
         )
     } else if analysis.shortened == Some(Shortened::Time) {
-        "the search for bands would take more than five minutes of processor time; name sweep.from_rpm and sweep.to_rpm to chart the speeds above"
+        "the search for bands would take more than a minute of processor time; name sweep.from_rpm and sweep.to_rpm to chart the speeds above"
             .to_owned()
     } else {
         "the modes of so many speeds would not fit into the memory allowed; a coarser accuracy permits a longer sweep".to_owned()
