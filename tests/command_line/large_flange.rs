@@ -104,3 +104,25 @@ fn a_spring_at_a_large_flange_makes_the_waves_of_many_diameters_diverge() {
     let first = &report.instabilities[0];
     assert!((first.from_rpm / 17_888.80 - 1.0).abs() < 1e-6);
 }
+
+/// Hoop strain ρ(Ωb)²/E of 0.1: 104 125 rpm for a rim of 150 mm. The sweep of this saw would be refused, too, after the choice of its basis.
+#[test]
+fn a_speed_that_tears_the_blade_is_refused_before_its_basis_is_chosen() {
+    let folder = TempDir::new().unwrap();
+    let guided = r#", "operating_rpm": 3000, "sweep": { "to_rpm": 36500 },
+        "guides": [{ "radius_m": 0.1485, "angle_deg": -60, "radial_length_m": 0, "tangential_length_m": 0,
+            "stiffness_n_per_m": 1e5 }]"#;
+    let scene = blade(&folder, [300.0, 30.0, 0.6, 288.0], STEEL, guided);
+    let hoop = |rpm: f64| {
+        let speed = rpm * std::f64::consts::TAU / 60.0 * 0.15;
+        STEEL[1] * speed * speed / STEEL[0]
+    };
+    let fastest = (0.1 / hoop(1.0)).sqrt();
+    for command in ["analyze", "response"] {
+        let refused = run(&[command, &scene, "--rpm", "1e8"], &folder);
+        assert_eq!(refused.status.code(), Some(2), "{command}");
+        let told = text(&refused.stderr);
+        let begin = format!("error: --rpm must be at most {fastest:.0} (you gave 1e8)");
+        assert!(told.contains(&begin), "{command}: {told}");
+    }
+}

@@ -41,7 +41,7 @@ use crate::model::scene::{
 };
 use crate::modes::SpectrumError;
 use crate::motion::steady::{Family, loads};
-use crate::stability::{Analysis, AnalysisError, ahead};
+use crate::stability::{Analysis, AnalysisError, ahead, check_speed};
 use solver::{Motion, Solver};
 use speeds::{even, near};
 use warnings::warnings;
@@ -69,6 +69,12 @@ pub enum ResponseError {
 /// [`ResponseError`].
 pub fn response(scene: &Scene, options: &Options) -> Result<ResponseReport, ResponseError> {
     options.checked()?;
+    if let Some(rpm) = options.rpm {
+        check_speed(scene.blade(), "rpm", rpm)?;
+    }
+    if let Some(sweep) = scene.sweep() {
+        options.speed_rad_per_s(sweep)?;
+    }
     of_analysis(&Analysis::new(scene)?, options)
 }
 

@@ -6,6 +6,7 @@ use serde::Deserialize;
 use super::{WashboardError, WashboardReport, washboard};
 use crate::analyses::door::{CommandError, CommandOptions, Progress, SceneNumber, Step};
 use crate::model::scene::{AssumedBlock, Scene};
+use crate::stability::check_speed;
 
 /// Determines whether washboarding occurs under the cutting force of cut.washboarding in the scene. If the scene has none
 /// but the call one of its numbers, typical numbers are assumed for the others, and a ModelWarning names them.
@@ -43,6 +44,9 @@ impl CommandOptions for Options {
         scene: &Scene,
         progress: Progress<'_>,
     ) -> Result<WashboardReport, CommandError> {
+        if let Some(rpm) = self.rpm {
+            check_speed(scene.blade(), "rpm", rpm)?;
+        }
         let cut = scene.needed_washboarding()?;
         let run = cut.at_rpm(scene.needed_operating_rpm(self.rpm)?)?;
         let speeds = |done, of| progress(Step::new("speeds", done, of));

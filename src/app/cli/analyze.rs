@@ -4,8 +4,8 @@ use std::path::{Path, PathBuf};
 
 use crate::analyses::campbell::CampbellView;
 use crate::analyses::campbell::{Report, Sensitivity, VTK_NAMES, Whirl};
-use crate::model::scene::Scene;
-use crate::stability::{Analysis, AnalysisOptions, ExpectedWork};
+use crate::model::scene::{RefusedValue, Scene};
+use crate::stability::{Analysis, AnalysisOptions, ExpectedWork, check_speed};
 use anyhow::Context;
 use clap::Args;
 
@@ -152,6 +152,7 @@ fn in_cut(scene: &Scene, rpm: Option<f64>) -> anyhow::Result<Scene> {
     let rpm = rpm.or_else(|| scene.cutting_rpm()).context(
         "--in-cut has no speed, and the scene neither operating_rpm nor cut.speeds; name one, like --in-cut 1800",
     )?;
+    check_speed(scene.blade(), "--in-cut", rpm)?;
     let charted = scene.charted_in_cut(rpm);
     charted.context("--in-cut was refused")
 }
@@ -186,7 +187,19 @@ fn into_folder(arguments: &Arguments, scene: &Scene, path: &Path) -> anyhow::Res
 }
 
 fn report(arguments: &Arguments, scene: &Scene) -> anyhow::Result<Report> {
+    if let Some(rpm) = arguments.rpm {
+        check_before_work(scene, rpm)?;
+    }
     watched_with_remarks(|_, remark| watched_report(arguments, scene, remark))?
+}
+
+/// Refuses a speed for the modes that is outside the sweep of the scene, or beyond the model where the program chooses the sweep.
+fn check_before_work(scene: &Scene, rpm: f64) -> Result<(), RefusedValue> {
+    check_speed(scene.blade(), "--rpm", rpm)?;
+    match scene.sweep() {
+        Some(sweep) => sweep.speed_at("--rpm", rpm).map(|_| ()),
+        None => Ok(()),
+    }
 }
 
 fn watched_report(
