@@ -12,7 +12,7 @@ use crate::stability::instability_kind::InstabilityKind;
 
 /// Two humps of growth are separate bands if growth between them falls below this share of the lower hump. Each
 /// coalescence of two modes gives a hump; growth by damping alone, between them, is slow and even.
-const VALLEY: Tuned = Tuned::new("stability/damped/hump::VALLEY", 0.5);
+pub(super) const VALLEY: Tuned = Tuned::new("stability/damped/hump::VALLEY", 0.5);
 /// Smallest width of a band, as a share of its speed. Narrower ones are below the resolution of a complex
 /// pair that turns into two real eigenvalues.
 const LEAST_BAND: f64 = 1e-9;

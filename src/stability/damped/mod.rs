@@ -9,6 +9,7 @@
 mod counts;
 mod curve;
 mod hump;
+mod sliver;
 mod spectrum;
 
 use rayon::prelude::*;
@@ -31,6 +32,7 @@ use crate::modes::branches::{self, ModesAt};
 use crate::modes::{Mode, SpectralModel, SpectrumError, clear_range};
 use counts::Counts;
 pub(super) use counts::counted_in_window;
+use sliver::{rounded_to_real, without_slivers};
 use spectrum::{Component, Solver, Spectrum, finite, noise};
 
 /// Allowed distance of straight lines from a drawn curve of growth, as a share of its peak, both on a
@@ -217,7 +219,8 @@ fn searched(
         .par_iter()
         .map(|curve| hump::bands(component, curve, range, tolerance))
         .collect();
-    Ok((pieces, found?.into_iter().flatten().collect()))
+    let found: Vec<Instability> = found?.into_iter().flatten().collect();
+    Ok((pieces, without_slivers(found, solver.highest())))
 }
 
 /// The speed, if the number of growing modes differs from the number of bands there; otherwise empty.
@@ -251,6 +254,8 @@ fn mismatches(model: &SpectralModel, spectra: &[Spectrum], bands: &[Instability]
             sound.filter(|l| l.re > least).count()
         };
         let (least, most) = (growing(10.0 * noise(model)), growing(-10.0 * noise(model)));
+        let doubled = rounded_to_real(&spectrum.values, model.complete_to_rad_per_s);
+        let least = least.saturating_sub(doubled);
         !ends.any(|edge| at_edge(speed, edge)) && !(least..=most).contains(&covering.count())
     };
     let differing = spectra.iter().filter(differs);
