@@ -89,14 +89,16 @@ impl Strain {
                 let Ok(m) = usize::try_from(left.n + right.n) else {
                     continue;
                 };
+                // Slices of one length let the loop go without checks of its indices.
                 let [real, imaginary] = &mut strain.harmonics[m];
                 let (re_rr, re) = real.split_at_mut(nodes);
                 let (re_tt, re_rt) = re.split_at_mut(nodes);
                 let (im_rr, im) = imaginary.split_at_mut(nodes);
                 let (im_tt, im_rt) = im.split_at_mut(nodes);
+                let (re_rt, im_rt) = (&mut re_rt[..nodes], &mut im_rt[..nodes]);
                 let [left_sign, right_sign] = [left.n, right.n].map(conjugation);
-                let [[vr, vri], [vt, vti]] = left.parts;
-                let [[wr, wri], [wt, wti]] = right.parts;
+                let [[vr, vri], [vt, vti]] = of_nodes(left.parts, nodes);
+                let [[wr, wri], [wt, wti]] = of_nodes(right.parts, nodes);
                 for j in 0..nodes {
                     let (ar, ai) = (0.5 * vr[j], 0.5 * left_sign * vri[j]);
                     let (br, bi) = (0.5 * vt[j], 0.5 * left_sign * vti[j]);
@@ -160,6 +162,12 @@ impl Strain {
             fti[j] += dr * tti + di * tt + cr * rti + ci * rt;
         }
     }
+}
+
+/// Both slopes of a wave at the nodes.
+fn of_nodes(parts: &[Parts; 2], nodes: usize) -> [[&[f64]; 2]; 2] {
+    let [radial, hoop] = parts;
+    [radial, hoop].map(|[real, imaginary]| [&real[..nodes], &imaginary[..nodes]])
 }
 
 /// Sign of the imaginary part of wave n relative to the stored one, which is that of |n|.
