@@ -76,7 +76,7 @@ fn at_speed(text: &mut Outline, run: &CutAtSpeed, teeth: f64) {
         run.rpm,
         run.tangential_n_per_tooth.round(),
         run.radial_n_per_tooth.round(),
-        run.lateral_n_per_tooth,
+        shown_to(3, run.lateral_n_per_tooth),
         shown_to(3, teeth * run.lateral_n_per_tooth)
     );
     let columns = [

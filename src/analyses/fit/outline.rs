@@ -3,7 +3,7 @@
 use super::{FitReport, FittedParameter};
 use crate::analyses::changed::changed;
 use crate::page::outline::{Column, FREQUENCY, Fact, Outline, SPEED, Table, Value};
-use crate::page::text::shown_to;
+use crate::page::text::{counted, shown_to};
 
 /// Number of speeds of which the text shows the deviations.
 const SPEEDS: usize = 20;
@@ -17,8 +17,9 @@ pub fn outline(report: &FitReport) -> Outline {
         &report.unusual_numbers,
     );
     text.headline(format!(
-        "Fitted to {} frequencies ({})",
-        report.measured_frequencies, report.source
+        "Fitted to {} ({})",
+        counted(report.measured_frequencies, ["frequency", "frequencies"]),
+        report.source
     ));
     text.remarks("Warning", &report.warnings);
     let rms = FREQUENCY.fixed(3, report.rms_hz);

@@ -4,7 +4,7 @@ use super::{MapAxis, MapReport, MappedSaw};
 use crate::analyses::study::accuracy_of_saws;
 use crate::analyses::verdict::{Answer, Verdict};
 use crate::page::outline::{Column, Outline, PLAIN, SPEED, Table, Value};
-use crate::page::text::{shown, shown_to};
+use crate::page::text::{counted, shown, shown_to};
 
 /// Number of evenly spaced saws in the table.
 const SAWS: usize = 12;
@@ -155,7 +155,8 @@ fn speeds(text: &mut Outline, report: &MapReport) {
     match beyond.count() {
         0 => (),
         count => text.reason(format!(
-            "{count} saws do not flutter up to {:.0} rpm",
+            "{} not flutter up to {:.0} rpm",
+            counted(count, ["saw does", "saws do"]),
             report.to_rpm
         )),
     }

@@ -4,7 +4,7 @@ use super::{FragileOptimum, Goal, Neighbour, Outcome, PlaceReport, PlacedParamet
 use crate::analyses::changed::changed;
 use crate::analyses::verdict::Verdict;
 use crate::page::outline::{Column, Fact, LENGTH, Outline, SPEED, Table};
-use crate::page::text::shown_to;
+use crate::page::text::{counted, shown_to};
 
 pub fn outline(report: &PlaceReport) -> Outline {
     let mut text = Outline::of(
@@ -64,8 +64,10 @@ pub fn outline(report: &PlaceReport) -> Outline {
     });
     text.remarks("Note", &report.warnings);
     text.sentence(format!(
-        "{} saws analysed, {:.0} to {:.0} rpm",
-        report.saws, report.from_rpm, report.to_rpm
+        "{} analysed, {:.0} to {:.0} rpm",
+        counted(report.saws, ["saw", "saws"]),
+        report.from_rpm,
+        report.to_rpm
     ));
     text
 }

@@ -2,7 +2,7 @@
 
 use super::report::{ResponseLine, SteadyState};
 use crate::model::scene::Scene;
-use crate::page::text::shown;
+use crate::page::text::{counted, shown};
 
 /// Remarks of the chart, and on the lines; `assumed_force_n` is the side force of a scene without an excitation.
 pub(super) fn warnings(
@@ -45,7 +45,8 @@ pub(super) fn warnings(
             .count();
         if count > 0 {
             warnings.push(format!(
-                "at {count} resonances no amplitude is given: {why}"
+                "at {} no amplitude is given: {why}",
+                counted(count, ["resonance", "resonances"])
             ));
         }
     }

@@ -3,7 +3,7 @@
 use super::{SizeReport, SizedWindow};
 use crate::analyses::scene_number::{FigureUnit, unit};
 use crate::page::outline::{Column, Outline, PERCENT, PLAIN, Table, Value};
-use crate::page::text::{shown, shown_to};
+use crate::page::text::{counted, shown, shown_to};
 
 /// Number of rows of the table.
 const ROWS: usize = 24;
@@ -78,8 +78,8 @@ pub fn outline(report: &SizeReport) -> Outline {
     text.remarks("Warning", &report.warnings);
     text.details(|text| {
         text.sentence(format!(
-            "{} saws were checked; ranges were searched with a tolerance of {}",
-            report.saws,
+            "{} checked; ranges were searched with a tolerance of {}",
+            counted(report.saws, ["saw was", "saws were"]),
             shown(report.searched_tolerance)
         ));
     });

@@ -7,7 +7,7 @@ use crate::model::scene::Scene;
 use crate::page::outline::{
     Column, Fact, LENGTH, Outline, PERCENT, PLAIN, SPEED, Table, Value, shortened,
 };
-use crate::page::text::{shown, shown_to};
+use crate::page::text::{counted, shown, shown_to};
 
 /// Number of rows of the table of a grid that a text shows.
 const POINTS: usize = 24;
@@ -86,8 +86,9 @@ fn quantiles(text: &mut Outline, report: &StudyReport) {
     text.table(table);
     if all.flutter.beyond > 0 {
         text.sentence(format!(
-            "{} saws do not flutter up to {:.0} rpm",
-            all.flutter.beyond, report.swept_to_rpm
+            "{} not flutter up to {:.0} rpm",
+            counted(all.flutter.beyond, ["saw does", "saws do"]),
+            report.swept_to_rpm
         ));
     }
 }
@@ -229,9 +230,8 @@ fn remarks(text: &mut Outline, report: &StudyReport) {
     }
     for (count, word) in [(all.refused, "refused"), (all.failed, "failed")] {
         if count > 0 {
-            text.sentence(format!(
-                "{count} saws were {word} and count as not passing:"
-            ));
+            let saws = counted(count, ["saw was", "saws were"]);
+            text.sentence(format!("{saws} {word}, which counts as not passing:"));
         }
     }
     for refusal in report.not_analysed.iter().take(REASONS) {

@@ -117,13 +117,12 @@ fn tolerance_help() -> String {
 pub fn read_scene(path: &Path) -> anyhow::Result<Scene> {
     let text = read_text(path, SCENE_TEXT)?;
     let read = Scene::file_from_json(&text).and_then(|file| {
-        let mut unusual = file.unusual_numbers();
-        Scene::of_typed(file).inspect_err(|error| {
-            // The error itself describes the number that it refuses.
-            if let SceneError::Value(refused) = error {
-                unusual.retain(|number| !number.starts_with(&format!("{} is ", refused.key)));
-            }
-            remark_unusual(&unusual);
+        Scene::of_typed(file.clone()).inspect_err(|error| {
+            let refused = match error {
+                SceneError::Value(refused) => Some(refused.key.as_str()),
+                _ => None,
+            };
+            remark_unusual(&file.unusual_numbers_beside(refused));
         })
     });
     read.map_err(|error: SceneError| refused(path, error.into()))

@@ -6,7 +6,7 @@ use serde_json::Value;
 use super::fields::Units;
 use super::wording::in_field_units;
 use crate::analyses::door::CommandError;
-use crate::model::scene::{RefusedValue, SceneError};
+use crate::model::scene::{RefusedValue, Scene, SceneError};
 use crate::modes::SpectrumError;
 use crate::stability::AnalysisError;
 
@@ -19,6 +19,8 @@ pub struct Refusal {
     pub message: String,
     /// Message in the unit of the field of this quantity, if it has one.
     pub told: Option<String>,
+    /// Unusual numbers of the scene beside the refused one, which may be the cause.
+    pub unusual: Vec<String>,
     /// Allowed values of a number of the scene.
     #[serde(skip)]
     allowed: Option<String>,
@@ -98,6 +100,7 @@ impl Refusal {
             key: None,
             message: message.into(),
             told: None,
+            unusual: Vec::new(),
             allowed: None,
         }
     }
@@ -108,10 +111,14 @@ impl Refusal {
         Refusal { told, ..self }
     }
 
-    /// Adds the message in the unit of the field, unless there is one. `request` is the JSON of a scene, or contains one under `scene`.
+    /// Adds the message in the unit of the field, unless there is one, and the unusual numbers of the scene. `request` is the JSON of a
+    /// scene, or contains one under `scene`.
     pub fn in_field(mut self, request: &str, units: Units) -> Self {
         let request: Value = serde_json::from_str(request).unwrap_or_default();
         let scene = request.get("scene").unwrap_or(&request);
+        if let Ok(file) = Scene::file_from_json(&scene.to_string()) {
+            self.unusual = file.unusual_numbers_beside(self.key.as_deref());
+        }
         if let (Some(key), None) = (&self.key, &self.told) {
             self.told = in_field_units(key, at(scene, key), self.allowed.as_deref(), units);
         }
@@ -128,4 +135,29 @@ fn at<'a>(scene: &'a Value, path: &str) -> Option<&'a Value> {
             Value::Array(list) => list.get(step.parse::<usize>().ok()?),
             _ => part.get(step),
         })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A modulus in GPa makes the first critical speed 2 rpm, below a sweep that is refused for it: the page names the modulus, too, and
+    /// not the refused number twice.
+    #[test]
+    fn a_refusal_names_the_other_unusual_numbers_of_the_scene() {
+        let mut scene = Scene::paper().file().clone();
+        scene.blade.material.youngs_modulus_pa = 203.0;
+        let text = serde_json::json!({ "scene": scene }).to_string();
+        let refused = |key: &str| {
+            let refused = RefusedValue::new(key, 1e8, "at most 2", "give a lower speed");
+            Refusal::from(refused)
+                .in_field(&text, Units::default())
+                .unusual
+        };
+        let [unusual] = &refused("sweep.to_rpm")[..] else {
+            panic!("{:?}", refused("sweep.to_rpm"));
+        };
+        assert!(unusual.contains("203"), "{unusual}");
+        assert!(refused("blade.material.youngs_modulus_pa").is_empty());
+    }
 }

@@ -14,7 +14,9 @@ pub(crate) use file::read_stream;
 pub use file::{FileError, Kind, OtherEncodings, read_path};
 pub(crate) use json::from_keyed_json;
 pub use number::shown_to;
-pub(crate) use number::{MOST_DIGITS, fixed, rounded_between, rounded_down, shown, time_in_words};
+pub(crate) use number::{
+    MOST_DIGITS, counted, fixed, rounded_between, rounded_down, shown, time_in_words,
+};
 
 /// Replaces characters that control a terminal or change the direction of text by their escapes. Line breaks
 /// are kept.

@@ -53,6 +53,11 @@ pub fn rounded_between(low: f64, high: f64) -> f64 {
     between.next().unwrap_or(low)
 }
 
+/// A number of things with the words for one or for several: "1 saw does", "2 saws do".
+pub fn counted(count: usize, [one, several]: [&str; 2]) -> String {
+    format!("{count} {}", if count == 1 { one } else { several })
+}
+
 /// A time in words, to about a tenth.
 pub fn time_in_words(seconds: f64) -> String {
     match seconds {
@@ -64,7 +69,13 @@ pub fn time_in_words(seconds: f64) -> String {
 
 #[cfg(test)]
 mod tests {
-    use super::{fixed, rounded_between, shown};
+    use super::{counted, fixed, rounded_between, shown};
+
+    #[test]
+    fn one_thing_is_named_in_the_singular() {
+        let found = [0, 1, 2].map(|count| counted(count, ["saw was", "saws were"]));
+        assert_eq!(found, ["0 saws were", "1 saw was", "2 saws were"]);
+    }
 
     #[test]
     fn a_number_between_two_others_has_few_digits() {

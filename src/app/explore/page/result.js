@@ -11,6 +11,8 @@ import { shown } from "./words.js";
 // A chart of an earlier scene is marked if it stays for longer than this.
 const BLINK_MS = 400;
 
+const list = (id, sentences) => by(id).replaceChildren(...sentences.map((textContent) => node("li", { textContent })));
+
 export class Result {
   // Chart that was shown last, as the program sends it, or null.
   latest = null;
@@ -61,6 +63,7 @@ export class Result {
     const answers = error instanceof Refused;
     if (!answers && request.draft) return;
     const told = form.refuse(error);
+    if (answers) list("unusual", error.unusual);
     say(told ? "" : answers ? error.message : LOST);
     this.end();
     blade.draw(state.scene, error.key ?? null);
@@ -109,9 +112,8 @@ export class Result {
     if (by("why").open) by("why").lastElementChild.replaceChildren(...outline(parts));
     by("computed").textContent = `${accuracy.name} accuracy, ${accuracy.degrees_of_freedom} functions, `
       + `estimated error ${shown(100 * accuracy.estimated_relative_error, 2)} %, computed in ${Math.round(milliseconds)} ms${PLACE}`;
-    for (const [id, sentences] of Object.entries({ unusual: unusual_numbers, warnings })) {
-      by(id).replaceChildren(...sentences.map((textContent) => node("li", { textContent })));
-    }
+    list("unusual", unusual_numbers);
+    list("warnings", warnings);
     by("campbell").setAttribute("aria-label", `Campbell diagram. ${told.verdict.word}: ${told.verdict.line}. Arrow keys walk along the branches, plus and minus magnify, 0 shows all speeds.`);
   }
 }

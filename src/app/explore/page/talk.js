@@ -5,11 +5,12 @@ import { unitsNow } from "./fields.js";
 
 export class Refused extends Error {
   // `key` is the path of the quantity that causes the refusal, or null. `told` is the message in the unit of its field,
-  // or null.
-  constructor({ key, message, told = null }) {
+  // or null. `unusual` are sentences about other numbers of the scene, which may be the cause.
+  constructor({ key, message, told = null, unusual = [] }) {
     super(message);
     this.key = key;
     this.told = told;
+    this.unusual = unusual;
   }
 }
 

@@ -85,6 +85,19 @@ impl SceneFile {
         }
         alike.iter().map(|group| together(group)).collect()
     }
+
+    /// [`Self::unusual_numbers`] without the one that is refused, which the error describes.
+    pub(crate) fn unusual_numbers_beside(&self, refused: Option<&str>) -> Vec<String> {
+        let begins = refused.map(|key| format!("{key} is "));
+        let is_refused = |number: &String| {
+            begins
+                .as_ref()
+                .is_some_and(|begins| number.starts_with(begins))
+        };
+        let mut numbers = self.unusual_numbers();
+        numbers.retain(|number| !is_refused(number));
+        numbers
+    }
 }
 
 /// The message for a speed that is not part of the scene; `label` is its name, `path` that of its quantity.
