@@ -15,7 +15,7 @@
 //!     println!("{band}");
 //! }
 //! std::fs::write("campbell.svg", analysis.report().campbell_svg()?)?;
-//! # assert!((1400.0..1600.0).contains(&analysis.lowest_critical_rpm().unwrap()));
+//! # assert!((1400.0..1600.0).contains(&analysis.first_critical_rpm().unwrap()));
 //! # std::fs::remove_dir_all(&folder)?;
 //! # Ok(())
 //! # }

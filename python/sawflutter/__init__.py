@@ -3,7 +3,7 @@
 >>> import sawflutter as sf
 >>> saw = sf.Scene.paper().replace({"accuracy": "draft"})
 >>> r = saw.run_campbell()
->>> round(r.lowest_critical_rpm), round(r.flutter_rpm), len(r.bands)
+>>> round(r.first_critical_rpm), round(r.flutter_rpm), len(r.bands)
 (1531, 2256, 11)
 >>> saw.check(operating_rpm=1250).passed
 True

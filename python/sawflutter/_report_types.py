@@ -36,7 +36,7 @@ Verdict: TypeAlias = Literal["stable", "unstable"]
 
 TurnKind: TypeAlias = Literal["fold", "bifurcation"]
 
-Contoured: TypeAlias = Literal["flutter_speed", "lowest_critical_speed"]
+Contoured: TypeAlias = Literal["flutter_speed", "first_critical_speed", "limits"]
 
 Goal: TypeAlias = Literal["flutter_speed", "stable_window"]
 
@@ -45,6 +45,8 @@ Cause: TypeAlias = Literal["side_force", "run_out", "flatness", "imbalance", "os
 SteadyState: TypeAlias = Literal["bounded", "unbounded", "beyond_model", "none"]
 
 DecidedSpeed: TypeAlias = Literal["first_critical", "flutter"]
+
+InPlane: TypeAlias = Literal["fixed", "free"]
 
 Method: TypeAlias = Literal["reduced", "searched", "dense", "critical_speeds"]
 
@@ -203,9 +205,9 @@ class Idling(Entry):
     first_merge_rpm : Onset of the first flutter band, including weak ones.
     """
 
-    critical_rpm: FloatArray = field(metadata={"key": "critical_speeds_rpm"})
+    critical_rpm: FloatArray
     bands: tuple[Instability, ...] = field(metadata={"key": "instabilities"})
-    flutter_rpm: float | None = field(metadata={"key": "flutter_speed_rpm"})
+    flutter_rpm: float | None
     first_merge_rpm: float | None
 
 
@@ -306,7 +308,7 @@ class Criterion(Entry):
 
 
 @dataclass(frozen=True, eq=False, repr=False, kw_only=True)
-class FloquetEntry(Entry):
+class Floquet(Entry):
     """Growth of a slotted saw beside guides by Floquet multipliers, at the operating speed and
     1 % below and above it.
 
@@ -358,7 +360,7 @@ class VerdictEntry(Entry):
     allowed_by: str | None
     windows_rpm: FloatArray
     limits: tuple[Criterion, ...]
-    floquet: FloquetEntry | None = field(default=None)
+    floquet: Floquet | None = field(default=None)
 
 
 @dataclass(frozen=True, eq=False, repr=False, kw_only=True)
@@ -392,9 +394,7 @@ class Operating(Entry):
     Attributes
     ----------
     rpm : The scene's operating speed.
-    lowest_critical_rpm : First critical speed, also above the sweep; null if the blade has
-        none.
-    of_lowest_critical : Ratio of operating speed to first critical speed; null if the blade has
+    of_first_critical : Ratio of operating speed to first critical speed; null if the blade has
         no critical speed.
     stability : Whether a motion grows at that speed.
     inside_instability : Index into `instabilities` of the band that makes it unstable.
@@ -416,8 +416,7 @@ class Operating(Entry):
     """
 
     rpm: float
-    lowest_critical_rpm: float | None = field(default=None)
-    of_lowest_critical: float | None
+    of_first_critical: float | None
     stability: StabilityState
     inside_instability: int | None
     undecided_edge_rpm: float | None = field(default=None)
@@ -1011,6 +1010,7 @@ class CampbellReport(Entry):
         at any speed.
     bands : Bands of instability within the sweep, by onset; `certificate` gives the share of
         the sweep that is proven to have no others.
+    first_critical_rpm : First critical speed, also above the sweep; null if the blade has none.
     flutter_rpm : Flutter speed: lowest speed at which flutter counts, see `counted_rpm` of the
         bands.
     first_merge_rpm : Onset of the first flutter band, including weak ones.
@@ -1046,7 +1046,8 @@ class CampbellReport(Entry):
     critical_speeds: tuple[CriticalSpeed, ...]
     critical_speeds_without_damping: bool = field(default=False)
     bands: tuple[Instability, ...] = field(metadata={"key": "instabilities"})
-    flutter_rpm: float | None = field(metadata={"key": "flutter_speed_rpm"})
+    first_critical_rpm: float | None
+    flutter_rpm: float | None
     first_merge_rpm: float | None
     flutter_threshold_per_s: float
     in_cut: InCut | None = field(default=None)
@@ -1072,7 +1073,7 @@ class RimStiffness(Entry):
 
     Attributes
     ----------
-    rpm : Speeds from rest to just below the lowest critical one; empty if nothing holds the
+    rpm : Speeds from rest to just below the first critical one; empty if nothing holds the
         blade.
     n_per_m : Stiffness at these speeds.
     """
@@ -1125,6 +1126,7 @@ class CheckReport(Entry):
     verdict : Whether the saw can run at the operating speed, with every limit.
     operating_rpm : Operating speed.
     to_rpm : Last speed of the sweep; results are limited to it.
+    first_critical_rpm : First critical speed, also above the sweep; null if the blade has none.
     critical_rpm : Critical speeds within the sweep, ascending.
     bands : Every band of instability within the sweep.
     flutter_threshold_per_s : Growth rate above which a band counts.
@@ -1152,7 +1154,8 @@ class CheckReport(Entry):
     verdict: VerdictEntry
     operating_rpm: float
     to_rpm: float
-    critical_rpm: FloatArray = field(metadata={"key": "critical_speeds_rpm"})
+    first_critical_rpm: float | None
+    critical_rpm: FloatArray
     bands: tuple[Instability, ...] = field(metadata={"key": "instabilities"})
     flutter_threshold_per_s: float
     rim_stiffness_at_rest_n_per_m: float
@@ -1172,10 +1175,11 @@ class Compared(Entry):
 
     Attributes
     ----------
-    label : Label of the saw: the name of its file, or the change of its scene.
+    name : Name of the saw: that of its file, or the change of its scene.
     scene : Scene of the saw.
     condition : Whether the saw idles or is in its cut: "idling", or "in the cut at 2800 rpm (4
         teeth)".
+    first_critical_rpm : First critical speed, also above the sweep; null if the blade has none.
     critical_speeds : Critical speeds up to the end of its sweep, ascending.
     bands : The bands of instability within its sweep.
     flutter_rpm : Lowest speed at which flutter counts.
@@ -1189,12 +1193,13 @@ class Compared(Entry):
     warnings : Numbers that no saw has, and remarks on the validity of its result.
     """
 
-    label: str
+    name: str
     scene: SceneDict
     condition: str = field(default="")
+    first_critical_rpm: float | None
     critical_speeds: tuple[CriticalSpeed, ...]
     bands: tuple[Instability, ...] = field(metadata={"key": "instabilities"})
-    flutter_rpm: float | None = field(metadata={"key": "flutter_speed_rpm"})
+    flutter_rpm: float | None
     verdict: VerdictEntry
     operating: Operating | None
     rim_stiffness_at_rest_n_per_m: float | None
@@ -1863,7 +1868,7 @@ class AtAmplitude(Entry):
     stiffness_shares: FloatArray
     critical_rpm: FloatArray
     bands: tuple[Instability, ...] = field(metadata={"key": "instabilities"})
-    flutter_rpm: float | None = field(metadata={"key": "flutter_speed_rpm"})
+    flutter_rpm: float | None
 
 
 @dataclass(frozen=True, eq=False, repr=False, kw_only=True)
@@ -2124,8 +2129,8 @@ class Friction(Entry):
     pad_forces_n : Force of each one-sided pad on the blade, by contact and film, with this
         heat: the sum over both of its faces. Empty unless the temperature settles.
     pads : Each one-sided pad, in the order of the scene.
-    cold_critical_rpm : First critical speed of the linear chart without this heat.
-    lowest_critical_rpm : First critical speed of the linear chart with this heat; null also if
+    cold_first_critical_rpm : First critical speed of the linear chart without this heat.
+    first_critical_rpm : First critical speed of the linear chart with this heat; null also if
         the temperature does not settle.
     settled : Whether the temperature settles; otherwise the blade has no steady state, and its
         numbers are left out.
@@ -2150,8 +2155,8 @@ class Friction(Entry):
     deflection_m: float | None
     pad_forces_n: FloatArray
     pads: tuple[FrictionPad, ...]
-    cold_critical_rpm: float | None
-    lowest_critical_rpm: float | None = field(metadata={"key": "critical_rpm"})
+    cold_first_critical_rpm: float | None
+    first_critical_rpm: float | None
     settled: bool
     swings: bool = field(default=False)
     runaway_rpm: float | None = field(default=None)
@@ -2237,7 +2242,7 @@ class MappedSaw(Entry):
     ----------
     x : Value of the number along the horizontal axis.
     y : Value of the number along the vertical axis; null for a map over the speed.
-    lowest_critical_rpm : First critical speed; null if the blade has none.
+    first_critical_rpm : First critical speed; null if the blade has none.
     flutter_rpm : Flutter speed; null if no flutter counts within the sweep.
     critical_rpm : Critical speeds within the sweep, ascending.
     bands : Bands of instability within the sweep, by onset.
@@ -2251,8 +2256,8 @@ class MappedSaw(Entry):
 
     x: float
     y: float | None
-    lowest_critical_rpm: float | None
-    flutter_rpm: float | None = field(metadata={"key": "flutter_speed_rpm"})
+    first_critical_rpm: float | None
+    flutter_rpm: float | None
     critical_rpm: FloatArray
     bands: tuple[Instability, ...] = field(metadata={"key": "instabilities"})
     verdict: VerdictEntry | None
@@ -2267,7 +2272,7 @@ class Contour(Entry):
     Attributes
     ----------
     quantity : Quantity that is constant along the line.
-    rpm : Value of this quantity.
+    rpm : Value of this quantity; for the limits, the speed at which the saws are judged.
     points : Points of the line: values of x and of y.
     """
 
@@ -2362,6 +2367,9 @@ class Placed(Entry):
     less_rpm : Value of the goal if the number is smaller by `offset`; null if there is no such
         saw or the goal could not be computed.
     more_rpm : Value of the goal if the number is larger by `offset`; null in the same cases.
+    across_rpm : Smallest and largest value of the goal at five values of this number from bound
+        to bound, while the others keep their best values; null if one of these saws misses a
+        limit or could not be computed.
     """
 
     path: str
@@ -2373,6 +2381,7 @@ class Placed(Entry):
     offset: float
     less_rpm: float | None
     more_rpm: float | None
+    across_rpm: FloatArray | None
 
 
 @dataclass(frozen=True, eq=False, repr=False, kw_only=True)
@@ -2384,7 +2393,7 @@ class Outcome(Entry):
     goal_rpm : Value of the goal: the flutter speed, or the end of the sweep if there is none,
         or the width of the window.
     flutter_rpm : Flutter speed; null if it exceeds the sweep.
-    lowest_critical_rpm : First critical speed.
+    first_critical_rpm : First critical speed.
     window_rpm : Window without instability around the operating speed, if it is the goal.
     deflection_m : Deflection at the cut, as an absolute value, if it has a limit.
     kept : Whether the limits of the critical speed and of the deflection are kept.
@@ -2392,7 +2401,7 @@ class Outcome(Entry):
 
     goal_rpm: float
     flutter_rpm: float | None
-    lowest_critical_rpm: float | None = field(metadata={"key": "critical_rpm"})
+    first_critical_rpm: float | None
     window_rpm: FloatArray | None
     deflection_m: float | None = field(default=None)
     kept: bool
@@ -2454,7 +2463,7 @@ class FrontSaw(Entry):
     ----------
     values : Values of the numbers, in their order.
     flutter_rpm : Flutter speed; null if it exceeds the sweep.
-    lowest_critical_rpm : First critical speed.
+    first_critical_rpm : First critical speed.
     worst_goal_rpm : The goal in the worst case of the tolerances.
     deflection_m : Deflection at the cut under the side force at the operating speed, as an
         absolute value.
@@ -2462,7 +2471,7 @@ class FrontSaw(Entry):
 
     values: FloatArray
     flutter_rpm: float | None
-    lowest_critical_rpm: float | None = field(metadata={"key": "critical_rpm"})
+    first_critical_rpm: float | None
     worst_goal_rpm: float
     deflection_m: float
 
@@ -2606,6 +2615,7 @@ class ReportCampbellReport(Entry):
         at any speed.
     bands : Bands of instability within the sweep, by onset; `certificate` gives the share of
         the sweep that is proven to have no others.
+    first_critical_rpm : First critical speed, also above the sweep; null if the blade has none.
     flutter_rpm : Flutter speed: lowest speed at which flutter counts, see `counted_rpm` of the
         bands.
     first_merge_rpm : Onset of the first flutter band, including weak ones.
@@ -2641,7 +2651,8 @@ class ReportCampbellReport(Entry):
     critical_speeds: tuple[CriticalSpeed, ...]
     critical_speeds_without_damping: bool = field(default=False)
     bands: tuple[Instability, ...] = field(metadata={"key": "instabilities"})
-    flutter_rpm: float | None = field(metadata={"key": "flutter_speed_rpm"})
+    first_critical_rpm: float | None
+    flutter_rpm: float | None
     first_merge_rpm: float | None
     flutter_threshold_per_s: float
     in_cut: InCut | None = field(default=None)
@@ -2849,7 +2860,7 @@ class Change(Entry):
     path : JSON path of the number.
     from_ : Value in the scene.
     to : Changed value.
-    lowest_critical_rpm : First critical speed of the changed saw, also above the sweep; null if
+    first_critical_rpm : First critical speed of the changed saw, also above the sweep; null if
         it has none.
     flutter_rpm : Its flutter speed; null if the sweep contains none.
     """
@@ -2857,7 +2868,7 @@ class Change(Entry):
     path: str
     from_: float = field(metadata={"key": "from"})
     to: float
-    lowest_critical_rpm: float | None = field(metadata={"key": "critical_rpm"})
+    first_critical_rpm: float | None
     flutter_rpm: float | None
 
 
@@ -2878,6 +2889,180 @@ class LoadedPad(Entry):
     rpm: float
     side_force_n: float
     force_n: float
+
+
+@dataclass(frozen=True, eq=False, repr=False, kw_only=True)
+class OtherClamp(Entry):
+    """The verdict with the other condition in the plane of the blade at the edge of the collar.
+    A flange lies between both.
+
+    Attributes
+    ----------
+    in_plane : The other condition.
+    first_critical_rpm : First critical speed with it; null if there is none.
+    verdict : Whether the saw can run with it.
+    """
+
+    in_plane: InPlane
+    first_critical_rpm: float | None
+    verdict: VerdictEntry
+
+
+@dataclass(frozen=True, eq=False, repr=False, kw_only=True)
+class SizedLimit(Entry):
+    """A limit, and its margin over the values.
+
+    Attributes
+    ----------
+    key : Short name of the limit, for programs, as in the report of a check.
+    name : Requirement in words.
+    margins : Distance from the limit relative to it, negative if it is not kept; null if it has
+        no number there, or the saw was refused.
+    """
+
+    key: str
+    name: str
+    margins: FloatArray
+
+
+@dataclass(frozen=True, eq=False, repr=False, kw_only=True)
+class SizedWindow(Entry):
+    """A range of values in which a saw keeps all limits.
+
+    Attributes
+    ----------
+    from_ : Smallest value.
+    to : Largest value.
+    below : The limit that a smaller value does not keep, with what was found there; null at the
+        first value that was tried.
+    above : The limit that a larger value does not keep, with what was found there; null at the
+        last value that was tried.
+    """
+
+    from_: float = field(metadata={"key": "from"})
+    to: float
+    below: str | None
+    above: str | None
+
+
+@dataclass(frozen=True, eq=False, repr=False, kw_only=True)
+class SizeAnswer(Entry):
+    """A value with which the saw keeps its limits, checked at the accuracy of the scene.
+
+    Attributes
+    ----------
+    value : The value, rounded to a usual step towards the inside of the range.
+    is_of_scene : Whether the scene has it already.
+    scene : The scene with this value.
+    verdict : Whether the saw can run with this value, with every limit.
+    first_critical_rpm : First critical speed at this value; null if there is none.
+    deflection_m : Deflection of the rim at the cut at this value; null if it is unknown.
+    critical_rpm_per_percent : Change of the first critical speed if the number is larger by 1
+        %; null if it is unknown.
+    deflection_m_per_percent : Change of the deflection at the cut if the number is larger by 1
+        %; null if it is unknown.
+    """
+
+    value: float
+    is_of_scene: bool
+    scene: SceneDict
+    verdict: VerdictEntry
+    first_critical_rpm: float | None
+    deflection_m: float | None
+    critical_rpm_per_percent: float | None
+    deflection_m_per_percent: float | None
+
+
+@dataclass(frozen=True, eq=False, repr=False, kw_only=True)
+class SizedFor(Entry):
+    """The ranges for a value of another number.
+
+    Attributes
+    ----------
+    value : Value of the other number.
+    is_of_scene : Whether the scene has it.
+    from_ : First value of the sized number that was tried.
+    to : Last value of the sized number that was tried.
+    windows : Ranges of the sized number in which the saw keeps all limits.
+    """
+
+    value: float
+    is_of_scene: bool
+    from_: float = field(metadata={"key": "from"})
+    to: float
+    windows: tuple[SizedWindow, ...]
+
+
+@dataclass(frozen=True, eq=False, repr=False, kw_only=True)
+class SizedEach(Entry):
+    """The ranges for values of another number.
+
+    Attributes
+    ----------
+    paths : JSON paths of the other number in the scene; several if it is that of several
+        guides.
+    name : Name of the other number.
+    unit : Unit of the other number; empty if it has none.
+    rows : Every value, ascending, with that of the scene.
+    """
+
+    paths: tuple[str, ...]
+    name: str
+    unit: str
+    rows: tuple[SizedFor, ...]
+
+
+@dataclass(frozen=True, eq=False, repr=False, kw_only=True)
+class SizeReport(Entry):
+    """The values of a number with which a saw keeps its limits.
+
+    Attributes
+    ----------
+    sawflutter : Version of the program that wrote the report.
+    scene : The scene, as typed.
+    condition : Whether the saw idles or is in its cut.
+    unusual_numbers : Numbers that no saw has, each with its key, the usual range, and the
+        remedy.
+    paths : JSON paths of the number in the scene; several if it is that of several guides.
+    name : Name of the number.
+    unit : Unit of the number; empty if it has none.
+    of_scene : Value in the scene.
+    from_ : First value that was tried.
+    to : Last value that was tried.
+    operating_rpm : Operating speed; null if it is the number itself.
+    values : Values that were tried, ascending.
+    kept : Whether the saw keeps all limits at each of these values.
+    limits : Every limit, with its margin at each of these values.
+    windows : Ranges of values in which the saw keeps all limits.
+    answer : A value in the range that is nearest to the value of the scene; null if there is no
+        range.
+    each : The ranges for values of another number; null if none was asked for.
+    searched_tolerance : Relative tolerance with which the ranges were searched; their ends and
+        the answer have that of the scene.
+    saws : Number of saws that were checked.
+    warnings : Remarks on the validity of the result.
+    """
+
+    sawflutter: str
+    scene: SceneDict
+    condition: str
+    unusual_numbers: tuple[str, ...]
+    paths: tuple[str, ...]
+    name: str
+    unit: str
+    of_scene: float
+    from_: float = field(metadata={"key": "from"})
+    to: float
+    operating_rpm: float | None
+    values: FloatArray
+    kept: BoolArray
+    limits: tuple[SizedLimit, ...]
+    windows: tuple[SizedWindow, ...]
+    answer: SizeAnswer | None
+    each: SizedEach | None
+    searched_tolerance: float
+    saws: int
+    warnings: tuple[str, ...]
 
 
 @dataclass(frozen=True, eq=False, repr=False, kw_only=True)
@@ -2954,6 +3139,10 @@ class DesignReport(Entry):
     changes : The changes of one number that raise it most, the best first.
     pads : Linear pads under the side force at the cut at the operating speed; empty unless the
         saw is stable there.
+    other_clamp : The saw whose collar holds the blade in its plane the other way; null without
+        a collar or an operating speed.
+    thickness : Thicknesses of the blade with which the saw keeps its limits; null unless it
+        does not keep them now.
     gap : Guides with a gap; null if no guide is one-sided.
     warnings : Remarks on the validity of the result.
     """
@@ -2972,6 +3161,8 @@ class DesignReport(Entry):
     raised: DecidedSpeed
     changes: tuple[Change, ...]
     pads: tuple[LoadedPad, ...] = field(default=())
+    other_clamp: OtherClamp | None
+    thickness: SizeReport | None
     gap: ReportGapReport | None
     warnings: tuple[str, ...]
 
@@ -3158,72 +3349,7 @@ class RunUpReport(Entry):
 
 
 @dataclass(frozen=True, eq=False, repr=False, kw_only=True)
-class SizedLimit(Entry):
-    """A limit, and its margin over the values.
-
-    Attributes
-    ----------
-    key : Short name of the limit, for programs, as in the report of a check.
-    name : Requirement in words.
-    margins : Distance from the limit relative to it, negative if it is not kept; null if it has
-        no number there, or the saw was refused.
-    """
-
-    key: str
-    name: str
-    margins: FloatArray
-
-
-@dataclass(frozen=True, eq=False, repr=False, kw_only=True)
-class SizedWindow(Entry):
-    """A range of values in which a saw keeps all limits.
-
-    Attributes
-    ----------
-    from_ : Smallest value.
-    to : Largest value.
-    below : The limit that a smaller value does not keep, with what was found there; null at the
-        first value that was tried.
-    above : The limit that a larger value does not keep, with what was found there; null at the
-        last value that was tried.
-    """
-
-    from_: float = field(metadata={"key": "from"})
-    to: float
-    below: str | None
-    above: str | None
-
-
-@dataclass(frozen=True, eq=False, repr=False, kw_only=True)
-class SizeAnswer(Entry):
-    """A value with which the saw keeps its limits, checked at the accuracy of the scene.
-
-    Attributes
-    ----------
-    value : The value, rounded to a usual step towards the inside of the range.
-    is_of_scene : Whether the scene has it already.
-    scene : The scene with this value.
-    verdict : Whether the saw can run with this value, with every limit.
-    first_critical_rpm : First critical speed at this value; null if there is none.
-    deflection_m : Deflection of the rim at the cut at this value; null if it is unknown.
-    critical_rpm_per_percent : Change of the first critical speed if the number is larger by 1
-        %; null if it is unknown.
-    deflection_m_per_percent : Change of the deflection at the cut if the number is larger by 1
-        %; null if it is unknown.
-    """
-
-    value: float
-    is_of_scene: bool
-    scene: SceneDict
-    verdict: VerdictEntry
-    first_critical_rpm: float | None
-    deflection_m: float | None
-    critical_rpm_per_percent: float | None
-    deflection_m_per_percent: float | None
-
-
-@dataclass(frozen=True, eq=False, repr=False, kw_only=True)
-class SizeReport(Entry):
+class SizeSizeReport(Entry):
     """The values of a number with which a saw keeps its limits.
 
     Attributes
@@ -3246,6 +3372,7 @@ class SizeReport(Entry):
     windows : Ranges of values in which the saw keeps all limits.
     answer : A value in the range that is nearest to the value of the scene; null if there is no
         range.
+    each : The ranges for values of another number; null if none was asked for.
     searched_tolerance : Relative tolerance with which the ranges were searched; their ends and
         the answer have that of the scene.
     saws : Number of saws that were checked.
@@ -3268,6 +3395,7 @@ class SizeReport(Entry):
     limits: tuple[SizedLimit, ...]
     windows: tuple[SizedWindow, ...]
     answer: SizeAnswer | None
+    each: SizedEach | None
     searched_tolerance: float
     saws: int
     warnings: tuple[str, ...]
@@ -3326,7 +3454,8 @@ class Speed(Entry):
     saws : Number of saws with such a speed.
     beyond : Number of analysed saws without such a speed within the speeds of the study.
     median_rpm : Median; null if it exceeds the speeds of the study.
-    quantiles : Speeds below which given shares of the saws lie.
+    quantiles : Speeds below which given shares of the saws lie, as fine as the number of saws
+        allows.
     histogram : Histogram; null without saws.
     """
 
@@ -3361,6 +3490,7 @@ class Passing(Entry):
 
     Attributes
     ----------
+    operating_rpm : Speed at which the saws are judged.
     passed : Number of saws that keep every limit.
     probability : Share of these saws among all saws of the group.
     confidence : Confidence of the interval.
@@ -3370,6 +3500,7 @@ class Passing(Entry):
     criteria : Number of saws that keep each limit.
     """
 
+    operating_rpm: float
     passed: int
     probability: float
     confidence: float
@@ -3400,7 +3531,8 @@ class Number(Entry):
     saws : Number of saws whose number is known. The number of the other analysed saws counts as
         larger than any: the deflection is not known where slopes of the blade exceed 0.1.
     median : Median; null if it is not known.
-    quantiles : Numbers below which given shares of the saws lie.
+    quantiles : Numbers below which given shares of the saws lie, as fine as the number of saws
+        allows.
     """
 
     saws: int
@@ -3437,7 +3569,7 @@ class Group(Entry):
     saws : Number of saws.
     refused : Number of saws with impossible values.
     failed : Number of saws that could not be analysed.
-    lowest_critical : First critical speed of the analysed saws.
+    first_critical : First critical speed of the analysed saws.
     flutter : Flutter speed of the analysed saws.
     passing : Share of saws that keep the limits, if the study has any.
     gap : Numbers of guides with a gap, if the study has a block `gap`.
@@ -3447,7 +3579,7 @@ class Group(Entry):
     saws: int
     refused: int
     failed: int
-    lowest_critical: Speed
+    first_critical: Speed
     flutter: Speed
     passing: Passing | None
     gap: GapStatistics | None = field(default=None)
@@ -3491,8 +3623,8 @@ class Reliability(Entry):
     ----------
     margin : Largest ratio of the operating speed to the first critical speed: that of the
         limits, or the usual one.
-    fastest : Highest operating speeds for given shares of the saws; null if it exceeds the
-        speeds of the study, or fewer saws were analysed.
+    fastest : Highest operating speeds for given shares of the saws, as fine as the number of
+        saws allows; null if it exceeds the speeds of the study, or fewer saws were analysed.
     curve : Shares of the saws that can run at evenly spaced speeds.
     """
 
@@ -3541,7 +3673,7 @@ class StudyReport(Entry):
     not_analysed : The first saws that were not analysed.
     reliability : Share of saws that can run, over the operating speed; null if no saw has a
         critical or a flutter speed.
-    worst_lowest_critical : The saws with the lowest first critical speed, ascending.
+    worst_first_critical : The saws with the lowest first critical speed, ascending.
     worst_flutter : The saws with the lowest flutter speed, ascending.
     processors : Kinds of processors that have computed the saws, if there are several: the last
         digits of a speed may differ between them.
@@ -3559,7 +3691,7 @@ class StudyReport(Entry):
     groups: tuple[Group, ...]
     not_analysed: tuple[Refusal, ...]
     reliability: Reliability | None = field(default=None)
-    worst_lowest_critical: tuple[WorstSaw, ...] = field(default=())
+    worst_first_critical: tuple[WorstSaw, ...] = field(default=())
     worst_flutter: tuple[WorstSaw, ...] = field(default=())
     processors: tuple[str, ...] = field(default=())
 

@@ -20,12 +20,12 @@ class CompareResults(Result, CompareReport):
     _command, _rows_of = "compare", "saws"
 
     def _answer(self) -> str:
-        speeds = ((saw.label, saw.flutter_rpm) for saw in self.saws)
+        speeds = ((saw.name, saw.flutter_rpm) for saw in self.saws)
         found = ((label, "no flutter" if rpm is None else f"flutter from {rpm:.0f} rpm") for label, rpm in speeds)
         return "; ".join(f"{label}: {said}" for label, said in found)
 
     def _warnings(self) -> tuple[str, ...]:
-        return tuple(f"{saw.label}: {text}" for saw in self.saws for text in saw.warnings)
+        return tuple(f"{saw.name}: {text}" for saw in self.saws for text in saw.warnings)
 
 
 def compare(
@@ -51,7 +51,7 @@ def compare(
     >>> saw = sf.Scene.paper().with_accuracy("draft")
     >>> thin = saw.replace({"blade.thickness_m": "2.6 mm"})
     >>> found = sf.compare(saw, thin, labels=["saw", "thin"])
-    >>> [saw.label for saw in found.saws]
+    >>> [saw.name for saw in found.saws]
     ['saw', 'thin']
     >>> found.differences[0].path, found.differences[0].values
     ('blade.thickness_m', ('0.0028', '0.0026'))

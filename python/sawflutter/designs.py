@@ -192,7 +192,7 @@ class Speeds(Entry):
     name : title of the scene.
     to_rpm : last speed; the first one is 0.
     critical_rpm : critical speeds up to the last speed, ascending.
-    lowest_critical_rpm : first critical speed, also above the last speed; None if there is none.
+    first_critical_rpm : first critical speed, also above the last speed; None if there is none.
     flutter_rpm : flutter speed; None if there is none up to the last speed.
     bands : bands of instability up to the last speed, ascending.
     estimated_relative_error : estimated relative error of the critical speeds.
@@ -201,14 +201,14 @@ class Speeds(Entry):
     name: str
     to_rpm: float
     critical_rpm: FloatArray
-    lowest_critical_rpm: float | None
+    first_critical_rpm: float | None
     flutter_rpm: float | None
     bands: tuple[Instability, ...]
     estimated_relative_error: float
 
     def __repr__(self) -> str:
         critical, flutter = (
-            "none" if rpm is None else f"{rpm:.0f} rpm" for rpm in (self.lowest_critical_rpm, self.flutter_rpm)
+            "none" if rpm is None else f"{rpm:.0f} rpm" for rpm in (self.first_critical_rpm, self.flutter_rpm)
         )
         counted = f"{len(self.bands)} bands up to {self.to_rpm:.0f} rpm"
         return f"<Speeds {self.name!r}: first critical speed {critical}, flutter from {flutter}, {counted}>"

@@ -33,9 +33,9 @@ class MapResults(Result, MapReport):
         return x if self.y is None else (len(self.y.values), *x)
 
     @property
-    def lowest_critical_rpm(self) -> FloatArray:
+    def first_critical_rpm(self) -> FloatArray:
         """First critical speeds in the shape of the map; NaN where a saw has none."""
-        return self._speeds([saw.lowest_critical_rpm for saw in self.saws])
+        return self._speeds([saw.first_critical_rpm for saw in self.saws])
 
     @property
     def flutter_rpm(self) -> FloatArray:
@@ -43,7 +43,7 @@ class MapResults(Result, MapReport):
         return self._speeds([saw.flutter_rpm for saw in self.saws])
 
     def to_xarray(self) -> xr.Dataset:
-        """The map as labelled arrays, ``lowest_critical_rpm``, ``flutter_rpm``, ``answer`` and ``cause``, over the
+        """The map as labelled arrays, ``first_critical_rpm``, ``flutter_rpm``, ``answer`` and ``cause``, over the
         paths of the axes; needs xarray."""
         with extra("xarray"):
             import xarray as xr
@@ -54,7 +54,7 @@ class MapResults(Result, MapReport):
         answers = [(v.answer if v else None) or "" for v in verdicts]
         causes = [(v.cause if v else None) or "" for v in verdicts]
         variables = {
-            "lowest_critical_rpm": (names, self.lowest_critical_rpm, {"units": "rpm"}),
+            "first_critical_rpm": (names, self.first_critical_rpm, {"units": "rpm"}),
             "flutter_rpm": (names, self.flutter_rpm, {"units": "rpm"}),
             "answer": (names, np.reshape(np.array(answers), self.shape)),
             "cause": (names, np.reshape(np.array(causes), self.shape)),

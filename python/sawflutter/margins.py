@@ -245,7 +245,7 @@ def measured_margin(
     to_rpm = min(of.to_rpm for of in found)
     critical, flutter = (
         np.array([np.nan if one is None or one > to_rpm else one for one in of])
-        for of in ([of.lowest_critical_rpm for of in found], [of.flutter_rpm for of in found])
+        for of in ([of.first_critical_rpm for of in found], [of.flutter_rpm for of in found])
     )
     mode, probability = measured.most_likely(drawn)
     at_rpm = np.linspace(0.0, max(top, 1.0), 4 * _TRIED - 3)

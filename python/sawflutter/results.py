@@ -37,11 +37,6 @@ class CampbellResults(Result, CampbellReport):
         return array([critical.rpm for critical in self.critical_speeds])
 
     @property
-    def lowest_critical_rpm(self) -> float | None:
-        """The first critical speed; None if the sweep has none."""
-        return self.critical_speeds[0].rpm if self.critical_speeds else None
-
-    @property
     def branches(self) -> tuple[Branch, ...]:
         """Modes followed over speed, by frequency at their lowest speed."""
         return self.campbell.branches

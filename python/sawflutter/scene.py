@@ -46,6 +46,8 @@ if TYPE_CHECKING:
 Bounds: TypeAlias = "tuple[Number, Number] | None"
 Free: TypeAlias = "Mapping[str, Bounds] | Iterable[str] | None"
 """Paths of the scene and their bounds, or paths with the default bounds."""
+Each: TypeAlias = "Mapping[str, Number | Iterable[Number]] | None"
+"""A path of the scene and its values."""
 Value: TypeAlias = "float | str | list[Any] | dict[str, Any] | None"
 """A number, a word, or a block of a scene."""
 
@@ -292,7 +294,7 @@ class Scene(Drawn, Mapping[str, Value]):
         >>> saw = sf.Scene.paper().with_accuracy("draft")
         >>> for mm in (2.7, 2.8, 2.9):
         ...     thick = saw.replace({"blade.thickness_m": f"{mm} mm"})
-        ...     print(round(thick.speeds(beside=saw).lowest_critical_rpm, -1))
+        ...     print(round(thick.speeds(beside=saw).first_critical_rpm, -1))
         1480.0
         1530.0
         1580.0
@@ -778,6 +780,7 @@ class Scene(Drawn, Mapping[str, Value]):
         self,
         vary: Free = None,
         *,
+        each: Each = None,
         points: SupportsIndex = 17,
         operating_rpm: Number | None = None,
         margin: Number | None = None,
@@ -799,6 +802,9 @@ class Scene(Drawn, Mapping[str, Value]):
         vary : dict or list of str, optional
             The number, by its path in the scene, with or without bounds; `guides[*]` are all guides at
             once.
+        each : dict, optional
+            Another number of the scene, with values, for each of which the ranges are found too. A dict
+            gives the path its values.
         points : int
             Number of saws between the bounds among which ranges are searched.
         operating_rpm : float, optional
@@ -828,10 +834,11 @@ class Scene(Drawn, Mapping[str, Value]):
         >>> found.windows[0].above is None, round(found.windows[0].from_, 4)
         (True, 0.0027)
         """
-        return self._asked(SizeResults, accuracy, tolerance, progress, vary=vary, points=whole("points",
-            points), operating_rpm=operating_rpm, margin=margin, min_flutter_rpm=min_flutter_rpm,
-            min_critical_rpm=min_critical_rpm, max_rim_m_per_s=max_rim_m_per_s,
-            max_amplitude_m=max_amplitude_m, max_deviation_m=max_deviation_m, force_n=force_n)
+        return self._asked(SizeResults, accuracy, tolerance, progress, vary=vary, each=each,
+            points=whole("points", points), operating_rpm=operating_rpm, margin=margin,
+            min_flutter_rpm=min_flutter_rpm, min_critical_rpm=min_critical_rpm,
+            max_rim_m_per_s=max_rim_m_per_s, max_amplitude_m=max_amplitude_m,
+            max_deviation_m=max_deviation_m, force_n=force_n)
     # End of what is generated.
 
     def run_map(

@@ -62,8 +62,8 @@ class StudyResults(Result, StudyReport):
         estimates them by RBD-FAST from the saws of the study (Tarantola, Gatelli and Mara,
         Reliability Engineering and System Safety 91 (2006), 717).
 
-        The table has a row for each number, with the columns ``lowest_critical``, ``flutter``, and
-        their half-widths ``lowest_critical_confidence``, ``flutter_confidence`` at a level of
+        The table has a row for each number, with the columns ``first_critical``, ``flutter``, and
+        their half-widths ``first_critical_confidence``, ``flutter_confidence`` at a level of
         ``confidence``, from saws that are resampled with a ``seed``. A column is NaN if all saws have
         the same speed. A saw without such a speed counts with the last speed of its sweep; saws
         without an analysis are left out.
@@ -80,7 +80,7 @@ class StudyResults(Result, StudyReport):
         bounds = [[low, high] for low, high in zip(numbers.min(axis=0), numbers.max(axis=0))]
         problem = {"num_vars": len(names), "names": names, "bounds": bounds}
         columns: dict[str, Any] = {}
-        for key, column in (("lowest_critical", "lowest_critical_rpm"), ("flutter", "flutter_rpm")):
+        for key, column in (("first_critical", "first_critical_rpm"), ("flutter", "flutter_rpm")):
             speeds = table[column].astype(float).fillna(self.swept_to_rpm).to_numpy()
             columns[key] = columns[f"{key}_confidence"] = np.full(len(names), np.nan)
             if len(speeds) > 1 and np.ptp(speeds) > 0.0:
@@ -90,7 +90,7 @@ class StudyResults(Result, StudyReport):
         return pd.DataFrame(columns, index=pd.Index(names, name="number"))
 
     def map_chart(
-        self, speed: Literal["lowest_critical_rpm", "flutter_rpm"] = "flutter_rpm"
+        self, speed: Literal["first_critical_rpm", "flutter_rpm"] = "flutter_rpm"
     ) -> Chart:
         """A ``speed`` over the two numbers of a grid, as a heat map of the median where a point of the
         grid has several random saws; needs pandas."""

@@ -4,7 +4,7 @@ use pyo3::conversion::FromPyObjectOwned;
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyMapping, PyString};
 use sawflutter::analyses::door::{Argument, ArgumentKind};
-use sawflutter::model::scene::{NamedBounds, Scene};
+use sawflutter::model::scene::{NamedBounds, NamedValues, Scene};
 use serde_json::{Map, Value, json};
 
 use crate::failure::Failure;
@@ -64,11 +64,32 @@ impl<'py> Options<'py> {
                 ArgumentKind::Word(_) | ArgumentKind::Text => self.get::<String>(name)?.into(),
                 ArgumentKind::Speeds => self.get::<Vec<f64>>(name)?.into(),
                 ArgumentKind::Bounds => json!(self.bounds(name)?),
+                ArgumentKind::Values => json!(self.values(name)?),
                 ArgumentKind::Table => json!(self.get::<(String, String)>(name)?),
             };
             found.insert(argument.name.clone(), value);
         }
         Ok(found)
+    }
+
+    /// Paths of numbers of the scene, with values.
+    fn values(&self, name: &str) -> PyResult<Vec<NamedValues>> {
+        let Some(value) = self.found(name)? else {
+            return Ok(Vec::new());
+        };
+        let Ok(by_path) = value.cast::<PyMapping>() else {
+            let allowed = "a dict of a path of the scene and its values".to_owned();
+            let remedy = "write it like {\"blade.thickness_m\": [\"2 mm\", \"2.2 mm\"]}";
+            return refused(name, &value, allowed, remedy);
+        };
+        let items = by_path.items()?.into_iter();
+        items
+            .map(|item| {
+                let (path, values): (String, Bound<'_, PyAny>) = item.extract()?;
+                let found = values_at(&path, &values)?;
+                Ok((path, found))
+            })
+            .collect()
     }
 
     /// Paths of numbers of the scene, with or without bounds.
@@ -99,6 +120,17 @@ impl<'py> Options<'py> {
                 Ok((path, found))
             })
             .collect()
+    }
+}
+
+/// The numbers of a list, or one number.
+fn values_at(path: &str, values: &Bound<'_, PyAny>) -> PyResult<Vec<f64>> {
+    if values.is_instance_of::<PyString>() {
+        return Ok(vec![number(path, values)?]);
+    }
+    match values.try_iter() {
+        Ok(all) => all.map(|value| number(path, &value?)).collect(),
+        Err(_) => Ok(vec![number(path, values)?]),
     }
 }
 

@@ -56,17 +56,17 @@ def found(saw: sf.Scene, peaks: tuple[Array, Array, Array]) -> sf.MeasuredMargin
 
 def test_the_intervals_contain_the_true_saw(saw: sf.Scene, found: sf.MeasuredMargin) -> None:
     true = saw.replace(TRUTH).speeds(beside=saw)
-    assert true.lowest_critical_rpm is not None and true.flutter_rpm is not None
+    assert true.first_critical_rpm is not None and true.flutter_rpm is not None
     for values, truth in [
         (found.numbers[:, 0], TRUTH[RADIUS]), (found.numbers[:, 1], TRUTH[STIFFNESS]),
-        (found.critical_rpm, true.lowest_critical_rpm), (found.flutter_rpm, true.flutter_rpm),
+        (found.critical_rpm, true.first_critical_rpm), (found.flutter_rpm, true.flutter_rpm),
         (found.deviation_hz, DEVIATION_HZ),
     ]:  # fmt: skip
         assert values.min() < truth < values.max()
     # The intervals are far narrower than the bounds.
     assert np.ptp(found.numbers[:, 0]) < 0.7 * 0.06
     assert found.at_most_rpm == pytest.approx(0.85 * np.quantile(found.critical_rpm, 0.05))
-    assert 0.95 * 0.85 * true.lowest_critical_rpm < found.at_most_rpm < 0.85 * true.lowest_critical_rpm
+    assert 0.95 * 0.85 * true.first_critical_rpm < found.at_most_rpm < 0.85 * true.first_critical_rpm
     assert found.independent > 100.0 and found.error_hz < 0.2
     assert str(found).startswith(f"Run at most {found.at_most_rpm:.0f} rpm: 85 % of")
 

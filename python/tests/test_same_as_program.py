@@ -159,7 +159,7 @@ def test_the_report_of_a_map(programs: list[str], scenes: Path, tmp_path: Path) 
     assert saw.run_map(x, points=3, rpm=1800, folder=out) == found
     two = saw.run_map(x, ("guides[0].stiffness_n_per_m", 1e6, 1e8), points=2)
     assert two.shape == (2, 2)
-    assert (two.lowest_critical_rpm[1] > two.lowest_critical_rpm[0]).all()
+    assert (two.first_critical_rpm[1] > two.first_critical_rpm[0]).all()
     with pytest.raises(sf.StudyError, match=r"points must be .*\(you gave 1\)"):
         saw.run_map(x, points=1)
 

@@ -102,7 +102,7 @@ def test_saws_vary_as_they_are_told(study: sf.Study, tmp_path: Path) -> None:
     assert np.array_equal(frame["blade.thickness_m"].to_numpy(), values[:, 0])
     # A free blade's critical speeds are proportional to thickness and the root of the modulus.
     scale = values[:, 0] * np.sqrt(values[:, 1])
-    ratios = frame["lowest_critical_rpm"].to_numpy() / scale
+    ratios = frame["first_critical_rpm"].to_numpy() / scale
     # Saws can have different bases; this is exact on one basis, and accurate to the estimate
     # between two.
     for functions in set(frame["functions"]):
@@ -120,10 +120,10 @@ def test_sobol_indices_are_shares_of_the_variance(study: sf.Study, tmp_path: Pat
     thickness = (5e-5 / 0.0028) ** 2 / 3
     modulus = (0.05e11 / 2.05e11) ** 2 / 12
     exact = np.array([thickness, modulus]) / (thickness + modulus)
-    indices = found["lowest_critical"].to_numpy()
+    indices = found["first_critical"].to_numpy()
     # The estimator's own error at 1024 saws, several times less than the half-widths.
     assert np.all(abs(indices - exact) < 0.02), (indices, exact)
-    assert np.all(abs(indices - exact) < found["lowest_critical_confidence"])
+    assert np.all(abs(indices - exact) < found["first_critical_confidence"])
     # No saw flutters, so that there is no variance.
     assert found["flutter"].isna().all()
 
@@ -131,16 +131,16 @@ def test_sobol_indices_are_shares_of_the_variance(study: sf.Study, tmp_path: Pat
 def test_worst_saws_and_reliability_are_those_of_the_table(study: sf.Study, tmp_path: Path) -> None:
     result = study.run(tmp_path)
     table = result.to_dataframe()
-    worst = table.sort_values("lowest_critical_rpm").head(10)
-    assert [saw.saw for saw in result.worst_lowest_critical] == list(worst["saw"])
-    assert result.worst_lowest_critical[0].rpm == worst["lowest_critical_rpm"].iloc[0]
+    worst = table.sort_values("first_critical_rpm").head(10)
+    assert [saw.saw for saw in result.worst_first_critical] == list(worst["saw"])
+    assert result.worst_first_critical[0].rpm == worst["first_critical_rpm"].iloc[0]
     assert np.array_equal(
-        result.worst_lowest_critical[0].values, study.values([worst["saw"].iloc[0]])[0]
+        result.worst_first_critical[0].values, study.values([worst["saw"].iloc[0]])[0]
     )
     assert result.worst_flutter == ()
     reliability = result.reliability
     assert reliability is not None and reliability.margin == 0.85
-    allowed = 0.85 * table["lowest_critical_rpm"].to_numpy()
+    allowed = 0.85 * table["first_critical_rpm"].to_numpy()
     for point in reliability.curve:
         assert point.share == np.mean(allowed >= point.operating_rpm)
     for fastest in reliability.fastest:
@@ -204,12 +204,12 @@ def test_a_grid_is_a_map_of_its_speeds(draft: sf.Scene, tmp_path: Path) -> None:
         ],
     }
     result = sf.Study(draft.replace({"guides": []}), grid).run(tmp_path)
-    (heat,) = result.map_chart("lowest_critical_rpm").panels[0].items
+    (heat,) = result.map_chart("first_critical_rpm").panels[0].items
     assert isinstance(heat, Heat)
     assert (heat.x.tolist(), heat.y.tolist()) == tuple(values.values())
     # Critical speeds of a free blade are proportional to its thickness.
     assert heat.z[:, 1] / heat.z[:, 0] == pytest.approx(2.9 / 2.7, rel=1e-3)
-    assert result.map_chart("lowest_critical_rpm").plot().data
+    assert result.map_chart("first_critical_rpm").plot().data
     with pytest.raises(ValueError, match="two numbers"):
         sf.Study(draft.replace({"guides": []}), {**VARIED, "saws": 2}).run(
             tmp_path / "no"

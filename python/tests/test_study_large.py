@@ -69,22 +69,22 @@ def test_many_saws_are_summed_up_in_little_memory(
     report = json.loads((tmp_path / "sum" / "study.json").read_text())
     speeds = np.array(exact)
     # Counts and quantiles are exact, although the rows do not all fit into memory.
-    quantiles = report["all"]["lowest_critical"]["quantiles"]
+    quantiles = report["all"]["first_critical"]["quantiles"]
     found = np.array([q["rpm"] for q in quantiles])
     shares = [q["share"] for q in quantiles]
     assert np.allclose(found, np.quantile(speeds, shares), rtol=1e-14, atol=0)
     assert report["all"]["passing"]["passed"] == np.count_nonzero(speeds >= 1250.0 / 0.85)
-    assert sum(report["all"]["lowest_critical"]["histogram"]["counts"]) == SAWS
+    assert sum(report["all"]["first_critical"]["histogram"]["counts"]) == SAWS
     import pandas as pd
 
     table = pd.read_parquet(tmp_path / "sum" / "study.parquet")
     assert np.array_equal(table["saw"], np.arange(SAWS))
-    assert np.array_equal(np.sort(table["lowest_critical_rpm"]), np.sort(speeds))
+    assert np.array_equal(np.sort(table["first_critical_rpm"]), np.sort(speeds))
     # The first rows, as two other libraries read them from both tables.
     polars, duckdb = pytest.importorskip("polars"), pytest.importorskip("duckdb")
     for name in ("study.parquet", "study.csv"):
         path = tmp_path / "sum" / name
         read = polars.read_parquet(path) if name.endswith("parquet") else polars.read_csv(path)
-        assert read["lowest_critical_rpm"].to_list()[:9] == list(table["lowest_critical_rpm"][:9])
-        (row,) = duckdb.sql(f"select count(*), max(lowest_critical_rpm) from '{path}'").fetchall()
+        assert read["first_critical_rpm"].to_list()[:9] == list(table["first_critical_rpm"][:9])
+        (row,) = duckdb.sql(f"select count(*), max(first_critical_rpm) from '{path}'").fetchall()
         assert row == (SAWS, speeds.max())

@@ -40,8 +40,6 @@ METHODS = {
 RENAMED = {
     "from": "from_",
     ("RestMode", "shape"): "profiles",
-    "flutter_speed_rpm": "flutter_rpm",
-    "critical_speeds_rpm": "critical_rpm",
     "instabilities": "bands",
 }
 
@@ -302,7 +300,7 @@ class ReportTypes:
             attribute = RENAMED.get((name, key), RENAMED.get(key, key))
             # One critical speed is the lowest one, and several are an array.
             if attribute == "critical_rpm" and kind.startswith("float"):
-                attribute = "lowest_critical_rpm"
+                attribute = "first_critical_rpm"
             value = default(of, there, kind)
             settings = [] if value is None else [f"default={value}"]
             if attribute != key:

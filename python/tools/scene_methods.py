@@ -16,12 +16,14 @@ TYPES = {
     "flag": ("bool", "bool"),
     "speeds": ("Number | Numbers", "float or array_like, optional"),
     "bounds": ("Free", "dict or list of str, optional"),
+    "values": ("Each", "dict, optional"),
     "table": ("Measured", "path, DataFrame, array_like or rows, optional"),
     "text": ("str | None", "str, optional"),
 }
 # Sentences that concern Python only.
 MORE = {
     "free": "A dict gives a path its bounds (from, to), or None for the default ones.",
+    "each": "A dict gives the path its values.",
     "measured": "A file with speeds in rpm and frequencies in Hz, ascending, blank if a mode was not measured; or "
     "the same table as rows (rpm, hz, hz, ...) or (rpm, [hz, hz, ...]), as an array, or as a data frame with a "
     "column or an index rpm, with NaN for a blank. A list of frequencies alone is measured at rest.",

@@ -299,7 +299,7 @@ mod tests {
     /// Hermite cubics on 24 equal elements of the radius give 35 506.03 rpm, n = 48, and 17 888.80 rpm, n = 14, as
     /// the first critical speeds of n ≤ 150.
     #[test]
-    fn the_lowest_critical_speed_of_a_large_flange_has_dozens_of_diameters() {
+    fn the_first_critical_speed_of_a_large_flange_has_dozens_of_diameters() {
         for (scene, exact_rpm, diameters) in [
             (flanged(0.288, 0.6e-3), 35_506.03, 48),
             (flanged(0.26, 1e-3), 17_888.80, 14),

@@ -349,13 +349,13 @@ impl Analysis {
 
     /// First critical speed, at which a wave stands still in space; `None` if the blade has none below the
     /// speed at which it would yield.
-    pub fn lowest_critical_rpm(&self) -> Option<f64> {
+    pub fn first_critical_rpm(&self) -> Option<f64> {
         let lowest = self.model.critical.first()?;
         Some(rpm(lowest.speed_rad_per_s))
     }
 
     /// Lowest speed at which flutter grows faster than the scene's `flutter_threshold_per_s`.
-    pub fn flutter_speed_rpm(&self) -> Option<f64> {
+    pub fn flutter_rpm(&self) -> Option<f64> {
         self.flutter_speed_rad_per_s.map(rpm)
     }
 

@@ -4,18 +4,34 @@ use std::f64::consts::TAU;
 use std::fmt;
 
 use faer::c64;
+use serde::{Deserialize, Serialize};
 
 use super::group::Sloped;
 use super::instability_kind::InstabilityKind;
 use crate::model::scene::{SpeedRange, rpm};
 
+/// A complex number as a pair of its real and imaginary part.
+mod parts {
+    use faer::c64;
+    use serde::{Deserialize, Deserializer, Serialize, Serializer};
+
+    pub fn serialize<S: Serializer>(number: &c64, to: S) -> Result<S::Ok, S::Error> {
+        [number.re, number.im].serialize(to)
+    }
+
+    pub fn deserialize<'de, D: Deserializer<'de>>(from: D) -> Result<c64, D::Error> {
+        let [re, im] = <[f64; 2]>::deserialize(from)?;
+        Ok(c64::new(re, im))
+    }
+}
+
 /// What begins or ends a band.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub enum BandEnd {
     /// Critical speed: λ passes through zero.
     Critical,
     /// Coalescence of two modes with this λ.
-    Coalescence(c64),
+    Coalescence(#[serde(with = "parts")] c64),
     /// Zero of Re λ of a damped blade, or the speed of its smallest value between two bands.
     Growth,
     /// End of the range inside the band.
@@ -29,7 +45,7 @@ pub enum BandEnd {
 pub(super) const BESIDE_END: f64 = 1e-3;
 
 /// A band of unstable speeds.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[non_exhaustive]
 pub struct Instability {
     /// Divergence or flutter.
@@ -75,13 +91,15 @@ impl fmt::Display for Instability {
 }
 
 /// An eigenvalue at one speed.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct CurvePoint {
     /// Rotation speed Ω.
     pub speed_rad_per_s: f64,
     /// The number that a search follows: λ with Im λ ≥ 0 of a damped blade, λ² of an undamped one.
+    #[serde(with = "parts")]
     pub number: c64,
     /// Derivative of the number with respect to the speed.
+    #[serde(with = "parts")]
     pub slope: c64,
 }
 

@@ -12,7 +12,7 @@ use crate::model::scene::{SpeedRange, rpm};
 
 /// Results of the checks of a list of bands: comparisons of the Krein index with the spectra, mode counts on the
 /// full model, and the part of the range that is proven to contain no unlisted band.
-#[derive(Debug, Clone, PartialEq, Default)]
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 pub struct Certificate {
     /// Number of speeds at which the Krein index was compared.
     pub speeds_checked: usize,

@@ -204,7 +204,7 @@ impl<'a> Heating<'a> {
         let rises = self.rises(operating, buckling);
         let speeds: Result<Vec<Vec<NamedCriticalSpeed>>, SpectrumError> = rises
             .par_iter()
-            .map(|rise_k| self.lowest_critical(*rise_k))
+            .map(|rise_k| self.first_critical(*rise_k))
             .collect();
         // A wave of a free blade is identified by its number of diameters, a wave of a guided blade by its
         // place among the critical speeds.
@@ -239,7 +239,7 @@ impl<'a> Heating<'a> {
 
     /// First critical speeds at a peak, for a free blade one for each number of diameters; none if the blade
     /// has buckled.
-    fn lowest_critical(&self, rise_k: f64) -> Result<Vec<NamedCriticalSpeed>, SpectrumError> {
+    fn first_critical(&self, rise_k: f64) -> Result<Vec<NamedCriticalSpeed>, SpectrumError> {
         self.count()?;
         let plate = &self.model.plate;
         let blocks: Vec<&DMatrix<f64>> = self.per_kelvin.iter().collect();

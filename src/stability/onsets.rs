@@ -18,7 +18,7 @@ use crate::modes::{Assembled, NamedCriticalSpeed, SpectralModel, Strategy};
 #[derive(Debug)]
 pub struct Onsets {
     /// First critical speed, in rad/s, also above the range.
-    pub lowest_critical_rad_per_s: Option<f64>,
+    pub first_critical_rad_per_s: Option<f64>,
     /// Critical speeds, ascending, in rad/s, including those next to the range.
     pub critical_rad_per_s: Vec<f64>,
     /// Bands by onset.
@@ -73,14 +73,14 @@ impl Onsets {
             ..
         } = chosen;
         let critical_rad_per_s: Vec<f64> = critical.iter().map(|c| c.speed_rad_per_s).collect();
-        let lowest_critical = critical_rad_per_s.first().copied();
+        let first_critical = critical_rad_per_s.first().copied();
         let functions = saw.plate.degrees_of_freedom();
         let has_free_motions = GyroscopicSystem::has_free_motions(&saw.plate);
         // Without damping there are no bands to search for if the blade is free, because its waves are
         // uncoupled, or if the range ends below the first critical speed, because no wave is reflected
         // there.
         let is_damped = !saw.plate.is_conservative();
-        let is_slow = lowest_critical.is_none_or(|lowest| lowest > range.to_rad_per_s);
+        let is_slow = first_critical.is_none_or(|lowest| lowest > range.to_rad_per_s);
         let has_none = !is_damped && (saw.plate.is_axisymmetric() || is_slow);
         let found = if has_none {
             FoundBands::default()
@@ -96,7 +96,7 @@ impl Onsets {
         let [flutter_speed, first_merge] =
             [flutter_speed, first_merge].map(|onset| onset.map(|onset| onset.speed_rad_per_s));
         Ok(Onsets {
-            lowest_critical_rad_per_s: lowest_critical,
+            first_critical_rad_per_s: first_critical,
             critical_rad_per_s,
             flutter_speed_rad_per_s: flutter_speed,
             first_merge_rad_per_s: first_merge,

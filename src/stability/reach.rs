@@ -266,8 +266,8 @@ pub(crate) fn is_cut_short(scene: &Scene, critical_rad_per_s: &[f64]) -> bool {
 
 /// Twice the first critical speed, or above the operating speed up to three times the first critical speed, but at most
 /// [`fastest_rad_per_s`]; in rad/s.
-pub(crate) fn usual_end(scene: &Scene, lowest_critical_rad_per_s: Option<f64>) -> f64 {
-    let lowest = lowest_critical_rad_per_s.map_or(ASSUMED_CRITICAL_RPM, rpm);
+pub(crate) fn usual_end(scene: &Scene, first_critical_rad_per_s: Option<f64>) -> f64 {
+    let lowest = first_critical_rad_per_s.map_or(ASSUMED_CRITICAL_RPM, rpm);
     let operating = ABOVE_OPERATING * scene.file().operating_rpm.unwrap_or(0.0);
     let top = match operating / lowest {
         2.0..=FARTHEST => operating,

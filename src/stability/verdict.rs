@@ -76,7 +76,7 @@ impl StabilityState {
 
     /// The state of a slotted saw beside guides by its Floquet multipliers.
     fn of_growth(growth: &FloquetGrowth, threshold_per_s: f64) -> Self {
-        if growth.growth_per_s >= threshold_per_s {
+        if growth.growth_per_s - growth.error_per_s >= threshold_per_s {
             StabilityState::Flutter
         } else if growth.growth_per_s + growth.error_per_s >= threshold_per_s {
             StabilityState::NotCovered
@@ -152,7 +152,7 @@ impl Evidence<'_> {
         let floquet = self.floquet.filter(|nearby| {
             is_open && around(&self.range_rad_per_s) && nearby.contains(speed_rad_per_s)
         });
-        let floquet = floquet.map(|nearby| nearby.fastest());
+        let floquet = floquet.map(|nearby| nearby.deciding(self.threshold_per_s));
         let state = match worst {
             _ if !is_determined && around(&self.range_rad_per_s) => StabilityState::NotDetermined,
             _ if undecided.is_some() => StabilityState::TooClose,
@@ -180,7 +180,7 @@ impl Evidence<'_> {
             return vec![[covered, f64::INFINITY]];
         };
         let [from, to] = nearby.ends();
-        let growth = nearby.fastest();
+        let growth = nearby.deciding(self.threshold_per_s);
         let state = StabilityState::of_growth(&growth, self.threshold_per_s);
         if state == StabilityState::Stable && !growth.is_felt(self.threshold_per_s) {
             vec![[covered, from], [covered.max(to), f64::INFINITY]]

@@ -86,7 +86,7 @@ fn the_summary_fits_a_terminal_and_says_what_matters() {
     let text = text(&run.output.stdout);
     assert_in_80_columns(text);
     let critical = run.report.critical_speeds[0].rpm;
-    let flutter = run.report.flutter_speed_rpm.expect("the saw flutters");
+    let flutter = run.report.flutter_rpm.expect("the saw flutters");
     for expected in [
         format!("{:.2}", run.report.modes_at_rest[0].frequency_hz),
         format!("{critical:.1}"),
@@ -399,13 +399,13 @@ fn the_chart_in_the_cut_is_beside_that_of_the_idling_saw() {
     assert!((in_cut.teeth - 3.7659).abs() < 1e-4, "{}", in_cut.teeth);
     let own = &default_run().report;
     // A search for bands alone reaches the onset from other speeds than a chart does.
-    let (idle_rpm, charted_rpm) = (idling.flutter_speed_rpm, own.flutter_speed_rpm);
+    let (idle_rpm, charted_rpm) = (idling.flutter_rpm, own.flutter_rpm);
     let (idle, charted) = (idle_rpm.unwrap(), charted_rpm.unwrap());
     assert!((idle / charted - 1.0).abs() < 1e-9, "{idle} {charted}");
     let said = text(&output.stdout);
     for expected in [
         "1240 N against".to_owned(),
-        format!("{:.1}", idling.critical_speeds_rpm[0]),
+        format!("{:.1}", idling.critical_rpm[0]),
         format!("{:.1}", report.critical_speeds[0].rpm),
     ] {
         assert!(said.contains(&expected), "no {expected:?} in:\n{said}");

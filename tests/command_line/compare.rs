@@ -52,7 +52,7 @@ fn a_comparison_has_the_results_of_each_saw_alone() {
     let names = names_in(&out(&folder));
     assert_eq!(names, ["compare.json", "compare.png", "compare.svg"]);
     let compared: CompareReport = written(&folder, "compare.json");
-    let labels: Vec<&str> = compared.saws.iter().map(|saw| saw.label.as_str()).collect();
+    let labels: Vec<&str> = compared.saws.iter().map(|saw| saw.name.as_str()).collect();
     assert_eq!(labels, ["a", "b", "thickness_m=2.6mm"]);
     let [difference] = &compared.differences[..] else {
         panic!("{:?}", compared.differences)
@@ -91,7 +91,7 @@ fn a_comparison_has_the_results_of_each_saw_alone() {
         &folder,
     );
     let of_report: CompareReport = serde_json::from_slice(&with_report.stdout).unwrap();
-    assert_eq!(of_report.saws[0].label, "out");
+    assert_eq!(of_report.saws[0].name, "out");
     assert_eq!(
         of_report.saws[0].instabilities,
         compared.saws[1].instabilities

@@ -63,7 +63,7 @@ fn a_check_draws_its_limits_where_it_is_asked_to() {
         ("held", true),
     ];
     assert_eq!(kept, expected);
-    assert!(!printed.passed && printed.critical_speeds_rpm.len() == 6);
+    assert!(!printed.passed && printed.critical_rpm.len() == 6);
     assert!(read(&folder, "check.svg").contains("FAIL flutter speed of at least 2800 rpm"));
 }
 
@@ -171,7 +171,13 @@ fn a_place_is_found_and_written() {
     arguments.extend(QUICK);
     let output = run(&arguments, &folder);
     assert!(output.status.success(), "{}", text(&output.stderr));
-    let expected = ["place.json", "place.png", "place.svg", "placed-scene.json"];
+    let expected = [
+        "place-log.jsonl",
+        "place.json",
+        "place.png",
+        "place.svg",
+        "placed-scene.json",
+    ];
     assert_eq!(names_in(&out(&folder)), expected);
     assert_in_80_columns(text(&output.stdout));
     let report: PlaceReport = written(&folder, "place.json");

@@ -233,13 +233,13 @@ fn several_scenes_make_a_folder_each_and_a_table() {
         let written = std::fs::read(out.join(name).join("report.json")).unwrap();
         let report: Report = serde_json::from_slice(&written).unwrap();
         assert_eq!(row["folder"], name);
-        assert_eq!(row["lowest_critical_rpm"], report.critical_speeds[0].rpm);
+        assert_eq!(row["first_critical_rpm"], report.critical_speeds[0].rpm);
         assert_eq!(row["instabilities"], report.instabilities.len());
         assert_eq!(row["operating_rpm"], 1250.0);
         let operating = report.operating.unwrap();
         assert_eq!(
-            row["of_lowest_critical"],
-            operating.of_lowest_critical.unwrap()
+            row["of_first_critical"],
+            operating.of_first_critical.unwrap()
         );
         let answer = serde_json::to_value(report.verdict.answer).unwrap();
         assert_eq!(row["answer"], answer);

@@ -53,7 +53,7 @@ fn a_damped_pad_is_stable_where_its_growth_is_below_the_threshold() {
         "{text}"
     );
     assert!(!text.contains("UNSTABLE"), "{text}");
-    let flutter = report.flutter_speed_rpm.unwrap();
+    let flutter = report.flutter_rpm.unwrap();
     assert!((2200.0..2300.0).contains(&flutter), "{flutter}");
     let counted = report.instabilities.iter().flat_map(|b| &b.counted_rpm);
     assert!(
@@ -157,7 +157,7 @@ fn the_flutter_speed_has_the_error_of_its_band() {
     let scene = write_scene(&folder, Scene::paper().file());
     let output = run(&["analyze", scene.to_str().unwrap()], &folder);
     let report: Report = written(&folder, "report.json");
-    let rpm = report.flutter_speed_rpm.unwrap();
+    let rpm = report.flutter_rpm.unwrap();
     let band = report.instabilities.iter().find(|b| b.from_rpm == rpm);
     let share = band.unwrap().estimated_relative_error.unwrap();
     assert!(share > report.accuracy.estimated_relative_error.unwrap());

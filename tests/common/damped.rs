@@ -101,7 +101,7 @@ pub fn holds(bands: &[Instability], all: &[c64], speed: f64) -> Result<(), Strin
 
 /// The peak growth of the bands of a saw, or the first error of its list.
 pub fn peak_growth_of_bands(file: &SceneFile) -> Result<f64, String> {
-    let range = SpeedRange::new(0.0, 1.9 * lowest_critical(file));
+    let range = SpeedRange::new(0.0, 1.9 * first_critical(file));
     let model =
         SpectralModel::new(Plate::new(&scene(file), SMALL), range, Solver::Reduced).unwrap();
     let chart = chart(&model, range, 31, &|_, _| ()).unwrap();

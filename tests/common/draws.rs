@@ -100,7 +100,7 @@ pub fn critical_rad_per_s(file: &SceneFile) -> Vec<f64> {
         .collect()
 }
 
-pub fn lowest_critical(file: &SceneFile) -> f64 {
+pub fn first_critical(file: &SceneFile) -> f64 {
     critical_rad_per_s(file)[0]
 }
 

@@ -45,6 +45,7 @@ fn quick() -> Options {
         map: 0,
         resolution: Some(SMALL),
         tolerances: Tolerances::USUAL,
+        folder: None,
     }
 }
 
@@ -354,11 +355,11 @@ fn a_limit_on_the_critical_speed_is_active_and_kept() {
     let saw = swept("two-pads");
     let free = freed(&saw, &[(ANGLE, -115.0, -60.0)]);
     let unlimited = place(&saw, &free, &Demands::default(), &quick());
-    let loose = unlimited.best.critical_rpm.unwrap();
+    let loose = unlimited.best.first_critical_rpm.unwrap();
     let limit = 1.02 * loose;
     let at_least = Demands::new(None, Some(limit)).unwrap();
     let limited = place(&saw, &free, &at_least, &quick());
-    let kept = limited.best.critical_rpm.unwrap();
+    let kept = limited.best.first_critical_rpm.unwrap();
     println!(
         "flutter {} critical {}; limited to {}: flutter {} critical {}",
         unlimited.best.goal_rpm, loose, limit, limited.best.goal_rpm, kept
@@ -632,4 +633,44 @@ fn cells_of_the_map_hold_the_flutter_speeds_of_their_saws() {
             assert_close("flutter", found, flutter_rpm(&cell), 1e-6);
         }
     }
+}
+
+/// A search that was stopped after some of its saws goes on with them: the answer is the same, and no saw is computed twice.
+#[test]
+#[cfg_attr(debug_assertions, ignore = "many eigenproblems: run it in release")]
+fn a_stopped_search_goes_on_with_the_saws_that_it_has_computed() {
+    let saw = swept("paper");
+    let freed = [Freed::new(saw.file(), RADIUS, 0.18, 0.28).unwrap()];
+    let folder = tempfile::tempdir().unwrap();
+    let options = Options {
+        samples: 4,
+        refine: 6,
+        folder: Some(folder.path().to_owned()),
+        ..quick()
+    };
+    let placed = || place(&saw, &freed, &Demands::default(), &options);
+    let whole = placed();
+    let log = folder.path().join("place-log.jsonl");
+    let lines = || {
+        std::fs::read_to_string(&log)
+            .unwrap()
+            .lines()
+            .map(str::to_owned)
+            .collect()
+    };
+    let all: Vec<String> = lines();
+    let scene = std::fs::read_to_string(folder.path().join("placed-scene.json")).unwrap();
+    assert!(Scene::from_json(&scene).is_ok(), "{scene}");
+    assert_eq!(placed(), whole);
+    assert_eq!(lines(), all, "nothing is computed again");
+    // As a stopped run leaves it: a part of the lines, the last one without its end.
+    let half = all[..all.len() / 2].join("\n") + "\n{\"saw\":[[";
+    std::fs::write(&log, half).unwrap();
+    assert_eq!(placed(), whole);
+    let again: Vec<String> = lines();
+    assert_eq!(again.len(), all.len());
+    // Another saw begins a log of its own.
+    let heavier = with(&saw, &[("blade.material.density_kg_per_m3", 8000.0)]);
+    let found = place(&heavier, &freed, &Demands::default(), &options);
+    assert!(found.best.goal_rpm < whole.best.goal_rpm);
 }

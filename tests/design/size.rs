@@ -31,6 +31,7 @@ fn sized(scene: &Scene, path: &str, bounds: Option<(f64, f64)>) -> SizeReport {
     let options = Options {
         vary: vec![(path.to_owned(), bounds)],
         points: 9,
+        ..Options::default()
     };
     options.compute(scene, &|_| ()).unwrap()
 }
@@ -42,6 +43,7 @@ fn refused(scene: &Scene, vary: &[(&str, Option<(f64, f64)>)], points: usize) ->
             .map(|(path, bounds)| ((*path).to_owned(), *bounds))
             .collect(),
         points,
+        ..Options::default()
     };
     let error: CommandError = options.compute(scene, &|_| ()).err().unwrap();
     error.to_string()
@@ -105,6 +107,56 @@ fn a_blade_is_as_thick_stiff_and_light_as_its_critical_speed_requires() {
     let allowed = 0.85 * first_critical_rpm(&saw);
     assert_close("operating_rpm", report.windows[0].to, allowed, 3e-4);
     assert_eq!(report.operating_rpm, None);
+}
+
+/// Ω_c ~ h: the fastest speed of each thickness is in proportion to it. The thickness of the scene is among the rows.
+#[test]
+fn the_fastest_speed_of_each_thickness_is_in_proportion_to_it() {
+    let saw = clamped();
+    let typed = saw.file().blade.thickness_m;
+    let allowed = 0.85 * first_critical_rpm(&saw);
+    let each = (
+        "blade.thickness_m".to_owned(),
+        vec![1.2 * typed, 0.9 * typed],
+    );
+    let options = Options {
+        vary: vec![("operating_rpm".to_owned(), None)],
+        each: vec![each],
+        points: 5,
+    };
+    let report = options.compute(&saw, &|_| ()).unwrap();
+    let found = report.each.as_ref().unwrap();
+    assert_eq!(found.paths, ["blade.thickness_m"]);
+    let shares: Vec<f64> = found.rows.iter().map(|row| row.value / typed).collect();
+    assert_eq!(shares, [0.9, 1.0, 1.2]);
+    for row in &found.rows {
+        let fastest = row.windows[0].to;
+        assert_close("speed", fastest, row.value / typed * allowed, 3e-4);
+        assert_eq!(row.is_of_scene, row.value == typed);
+    }
+    assert!(told(&report).contains("the scene"), "{}", told(&report));
+    let refused = |path: &str, values: &[f64]| {
+        let options = Options {
+            vary: vec![("blade.thickness_m".to_owned(), None)],
+            each: vec![(path.to_owned(), values.to_vec())],
+            points: 3,
+        };
+        options.compute(&saw, &|_| ()).err().unwrap().to_string()
+    };
+    for (path, values, words) in [
+        (
+            "blade.thickness_m",
+            &[0.002][..],
+            "each must be another number",
+        ),
+        ("blade.outer_diameter_m", &[], "must be 1 to 50 values"),
+        ("blade.outer_diameter_m", &[-1.0], "blade.outer_diameter_m"),
+        ("blade.colour", &[1.0], "blade.colour"),
+        ("guides[*].gap_m", &[1e-4], "guides"),
+    ] {
+        let message = refused(path, values);
+        assert!(says(&message, words), "{message}");
+    }
 }
 
 /// With the limits of the scene: the rim speed ends the range of diameters, the first critical speed that of speeds.

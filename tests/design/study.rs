@@ -45,7 +45,7 @@ fn first_critical_rpm(saw: &Scene) -> f64 {
     let nominal = saw.edited(|saw| saw.sweep.as_mut().unwrap().to_rpm = 1000.0);
     rpm(Onsets::new(&nominal.unwrap())
         .unwrap()
-        .lowest_critical_rad_per_s
+        .first_critical_rad_per_s
         .unwrap())
 }
 
@@ -60,7 +60,7 @@ fn quantiles_of_critical_speed_are_those_of_thickness() {
     .unwrap();
     let report = study.report(&all(&study)).unwrap();
     let per_metre = first_critical_rpm(&free_blade()) / THICKNESS;
-    for quantile in &report.all.lowest_critical.quantiles {
+    for quantile in &report.all.first_critical.quantiles {
         let exact = THICKNESS + 1e-4 * (2.0 * quantile.share - 1.0);
         // Each 512th of the range contains one of the 512 points, and each quantile lies between two neighbours.
         let allowed = 2.0 * 2e-4 / 512.0 / THICKNESS;
@@ -77,7 +77,7 @@ fn quantiles_of_critical_speed_are_those_of_thickness() {
         (0, 512)
     );
     assert!(report.all.flutter.quantiles.iter().all(|q| q.rpm.is_none()));
-    let histogram = report.all.lowest_critical.histogram.unwrap();
+    let histogram = report.all.first_critical.histogram.unwrap();
     assert_eq!(histogram.counts.iter().sum::<usize>(), 512);
 }
 
@@ -110,11 +110,11 @@ fn a_saw_of_a_study_is_as_accurate_as_an_analysis_of_its_own() {
         let found = saw.found().unwrap();
         assert!(found.functions >= nominal, "{saw:?}");
         assert!(found.estimated_relative_error <= tolerance, "{saw:?}");
-        let lowest = rpm(own.lowest_critical_rad_per_s.unwrap());
+        let lowest = rpm(own.first_critical_rad_per_s.unwrap());
         let what = format!("saw {}", saw.index);
         assert_close(
             &what,
-            found.lowest_critical_rpm.unwrap(),
+            found.first_critical_rpm.unwrap(),
             lowest,
             2.0 * tolerance,
         );
@@ -193,7 +193,7 @@ fn a_saw_of_a_study_is_the_one_that_analyze_and_check_see() {
             assert_close("onset", one.unwrap(), rpm(other.unwrap()), 1e-7);
         }
         let lowest = analysis.model.critical[0].speed_rad_per_s;
-        assert_eq!(found.lowest_critical_rpm, Some(rpm(lowest)));
+        assert_eq!(found.first_critical_rpm, Some(rpm(lowest)));
         assert_eq!(
             Some(found.estimated_relative_error),
             analysis.estimated_relative_error
@@ -226,8 +226,8 @@ fn a_grid_has_every_combination_and_shares_its_deviations() {
     assert_eq!(report.groups.len(), 6);
     assert_eq!(report.groups[4].grid[0].value, 0.003);
     assert_eq!(report.groups[4].grid[1].value, 0.29);
-    let thicker = report.groups[4].lowest_critical.median_rpm.unwrap();
-    let thinner = report.groups[1].lowest_critical.median_rpm.unwrap();
+    let thicker = report.groups[4].first_critical.median_rpm.unwrap();
+    let thinner = report.groups[1].first_critical.median_rpm.unwrap();
     assert_close("half as thick again", thicker, 1.5 * thinner, 1e-9);
 }
 
@@ -255,7 +255,7 @@ fn impossible_saws_are_rows_with_a_reason() {
         (report.all.saws, report.all.refused, report.all.failed),
         (3, 2, 0)
     );
-    assert_eq!(report.all.lowest_critical.saws, 1);
+    assert_eq!(report.all.first_critical.saws, 1);
     let passing = report.all.passing.unwrap();
     assert_eq!((passing.passed, passing.interval), (1, None));
     assert_eq!(report.not_analysed.len(), 2);
@@ -391,14 +391,11 @@ fn a_study_says_what_the_gap_does() {
     let free = saw.edited(|saw| saw.guides.clear()).unwrap();
     let free_rpm = rpm(Onsets::new(&free)
         .unwrap()
-        .lowest_critical_rad_per_s
+        .first_critical_rad_per_s
         .unwrap());
     assert_close("inside the gap", inside[2][2].unwrap(), free_rpm, 2e-3);
     let (beyond, _) = asked(20.0);
-    let linear = rpm(Onsets::new(&saw)
-        .unwrap()
-        .lowest_critical_rad_per_s
-        .unwrap());
+    let linear = rpm(Onsets::new(&saw).unwrap().first_critical_rad_per_s.unwrap());
     assert_close("beyond the gap", beyond[0][2].unwrap(), linear, 2e-3);
     let gap = report.all.gap.unwrap();
     let within = inside

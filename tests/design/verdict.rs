@@ -186,7 +186,7 @@ fn twenty_saws_have_one_verdict_each() {
         );
 
         if number % 5 == 1 {
-            let design = report::report(&saw, &report::Options::default()).unwrap();
+            let design = report::report(&saw, &report::Options::default(), &|_| ()).unwrap();
             assert_same("report", &saw, &design.verdict, expected);
         }
     }

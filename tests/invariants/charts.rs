@@ -19,7 +19,7 @@ use crate::draws::*;
 fn charts_of_random_saws_miss_nothing() {
     let bands = std::cell::Cell::new(0);
     check(5, any_saw(), |file| {
-        let range = SpeedRange::new(0.0, 1.5 * lowest_critical(&file));
+        let range = SpeedRange::new(0.0, 1.5 * first_critical(&file));
         let plate = Plate::new(&scene(&file), SMALL);
         let model = SpectralModel::new(plate, range, Solver::Reduced).unwrap();
         let chart = chart(&model, range, 21, &|_, _| ()).unwrap();
@@ -43,7 +43,7 @@ fn charts_of_random_saws_miss_nothing() {
 #[test]
 fn projected_modes_are_those_of_the_full_model() {
     check(8, (any_saw(), 0.0..1.6_f64), |(file, share)| {
-        let top = 1.6 * lowest_critical(&file);
+        let top = 1.6 * first_critical(&file);
         let speed = share / 1.6 * top;
         let plate = Plate::new(&scene(&file), SMALL);
         let model = SpectralModel::new(plate, SpeedRange::new(0.0, top), Solver::Reduced).unwrap();
@@ -135,7 +135,7 @@ fn evenly_spaced_pads_merge_only_waves_of_one_class() {
     check(8, (3_usize..=5, any_pad(0.355)), |(count, pad)| {
         let file = evenly_guided(count, pad);
         let plate = Plate::new(&scene(&file), SMALL);
-        let range = SpeedRange::new(0.0, 1.7 * lowest_critical(&file));
+        let range = SpeedRange::new(0.0, 1.7 * first_critical(&file));
         let model = SpectralModel::new(plate, range, Solver::Reduced).unwrap();
         let found = undamped_bands(&model, range, 21).unwrap();
         let (bands, certificate) = (found.instabilities, found.certificate);
@@ -175,7 +175,7 @@ fn evenly_spaced_pads_merge_only_waves_of_one_class() {
 #[test]
 fn branches_are_permuted_and_never_lost() {
     check(6, (any_saw(), 8_usize..40), |(file, count)| {
-        let range = SpeedRange::new(0.0, 1.6 * lowest_critical(&file));
+        let range = SpeedRange::new(0.0, 1.6 * first_critical(&file));
         let plate = Plate::new(&scene(&file), SMALL);
         let model = SpectralModel::new(plate, range, Solver::Reduced).unwrap();
         let samples = sample(&model, &evenly_spaced(range.ends(), count), &|_, _| ()).unwrap();

@@ -203,7 +203,7 @@ fn ranges(saw: &Saw) -> Vec<SpeedRange> {
 fn paper(multiple: f64, damping_n_s_per_m: f64) -> Saw {
     let mut file = Scene::paper().file().clone();
     file.guides[0].damping_n_s_per_m = damping_n_s_per_m;
-    let top = multiple * lowest_critical(&file);
+    let top = multiple * first_critical(&file);
     Saw::new(&file, top)
 }
 
@@ -230,7 +230,7 @@ fn bands_of_every_range_that_ends_at_an_event_are_those_of_a_longer_one() {
         assert_cut(&saw, range, Way::Chart);
     }
     check(12, any_saw(), |file| {
-        let top = 1.6 * lowest_critical(&file);
+        let top = 1.6 * first_critical(&file);
         let saw = Saw::new(&file, top);
         for range in ranges(&saw).into_iter().step_by(5) {
             assert_cut(&saw, range, Way::Bands);

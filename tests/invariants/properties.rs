@@ -29,7 +29,7 @@ fn gyroscopic_forces_are_skew_and_stiffness_is_symmetric() {
     check(24, (any_saw(), 0.0..2.0_f64), |(file, share)| {
         let system = system(&file);
         prop_assert!(system.is_conservative());
-        let stiffness = system.stiffness_at(share * lowest_critical(&file));
+        let stiffness = system.stiffness_at(share * first_critical(&file));
         let asymmetry = |m: &Mat<f64>, sign: f64| {
             (m - faer::Scale(sign) * m.transpose()).norm_max() / m.norm_max()
         };
@@ -46,7 +46,7 @@ fn gyroscopic_forces_are_skew_and_stiffness_is_symmetric() {
 #[test]
 fn eigenvalues_come_in_pairs_about_the_imaginary_axis() {
     check(24, (any_saw(), 0.0..2.0_f64), |(file, share)| {
-        let lambdas = eigenvalues(&file, share * lowest_critical(&file));
+        let lambdas = eigenvalues(&file, share * first_critical(&file));
         // The list has real eigenvalues of both signs, which mirror each other.
         let mirrored: Vec<c64> = lambdas.iter().map(|l| c64::new(-l.re, l.im)).collect();
         let off = distance(&lambdas, &mirrored);
@@ -60,7 +60,7 @@ fn eigenvalues_come_in_pairs_about_the_imaginary_axis() {
 #[test]
 fn mirrored_pads_give_the_same_spectrum() {
     check(24, (any_saw(), 0.0..2.0_f64), |(file, share)| {
-        let speed = share * lowest_critical(&file);
+        let speed = share * first_critical(&file);
         let mut mirrored = file.clone();
         for pad in &mut mirrored.guides {
             pad.angle_deg = -pad.angle_deg;
@@ -80,7 +80,7 @@ fn mirrored_pads_give_the_same_spectrum() {
 fn turning_all_pads_together_changes_nothing() {
     let draw = (any_saw(), 0.0..2.0_f64, -180.0..180.0_f64);
     check(24, draw, |(file, share, turn_deg)| {
-        let speed = share * lowest_critical(&file);
+        let speed = share * first_critical(&file);
         let mut turned = file.clone();
         for pad in &mut turned.guides {
             pad.angle_deg += turn_deg;
@@ -104,7 +104,7 @@ fn units_do_not_matter() {
     let draw = (any_saw(), 0.0..2.0_f64, [factor(), factor(), factor()]);
     check(24, draw, |(file, share, [length, mass, time])| {
         let scaled = in_units(&file, [length, mass, time]);
-        let speed = share * lowest_critical(&file);
+        let speed = share * first_critical(&file);
         let back: Vec<c64> = eigenvalues(&scaled, speed / time)
             .into_iter()
             .map(|lambda| lambda * time)
@@ -124,7 +124,7 @@ fn units_do_not_matter() {
 #[test]
 fn nothing_grows_below_the_first_critical_speed() {
     check(24, (any_saw(), 0.0..0.999_f64), |(file, share)| {
-        let critical = lowest_critical(&file);
+        let critical = first_critical(&file);
         let model = dense_model(&file, critical);
         for mode in model.all_modes(share * critical).unwrap() {
             // One pad can leave a rigid motion almost free: it is slow, but does not grow.
@@ -140,7 +140,7 @@ fn nothing_grows_below_the_first_critical_speed() {
 fn the_krein_index_counts_every_unstable_and_reflected_mode() {
     let counted = std::cell::Cell::new([0_usize; 3]);
     check(24, (any_saw(), 0.9..2.0_f64), |(file, share)| {
-        let speed = share * lowest_critical(&file);
+        let speed = share * first_critical(&file);
         let stiffness = system(&file).stiffness_at(speed);
         let negative = stiffness
             .self_adjoint_eigenvalues(faer::Side::Lower)

@@ -170,7 +170,7 @@ fn a_compressive_edge_load_moves_frequencies_and_bands_as_chen_found() {
 #[test]
 fn the_largest_speed_of_a_maker_is_near_the_usual_limit() {
     let report = report(&published("tenryu-305", |_| ()));
-    let share = report.operating.unwrap().of_lowest_critical.unwrap();
+    let share = report.operating.unwrap().of_first_critical.unwrap();
     println!("6900 rpm is {share:.3} of the first critical speed");
     assert!((0.75..1.0).contains(&share), "{share}");
 }

@@ -67,10 +67,7 @@ fn stiffness_over_speed_and_the_speed_that_fills_a_gap_are_those_of_the_full_mod
         1e-9,
     );
     // Near the critical speed the stiffness of one wave decreases as 1 − Ω²/Ω_c².
-    assert!(
-        curve.rpm[40] < report.critical_speeds_rpm[0]
-            && curve.n_per_m[40] < 0.15 * curve.n_per_m[0]
-    );
+    assert!(curve.rpm[40] < report.critical_rpm[0] && curve.n_per_m[40] < 0.15 * curve.n_per_m[0]);
 
     let gap = report
         .verdict

@@ -16,7 +16,7 @@ fn a_stiffness_of_zero_takes_nothing_of_a_margin() {
             "guides": [{"radius_m": 0.13, "angle_deg": -60, "radial_length_m": 0.03, "tangential_length_m": 0.03,
                 "stiffness_n_per_m": 0, "damping_n_s_per_m": 50}]}"#,
     );
-    let found = report(&scene.unwrap(), &Options::default()).unwrap();
+    let found = report(&scene.unwrap(), &Options::default(), &|_| ()).unwrap();
     let [critical, _] = found.speeds.as_slice() else {
         panic!("{:?}", found.speeds);
     };

@@ -48,8 +48,10 @@ pub struct Report {
     /// Bands of instability within the sweep, by onset; `certificate` gives the share of the sweep that is
     /// proven to have no others.
     pub instabilities: Vec<InstabilityBand>,
+    /// First critical speed, also above the sweep; null if the blade has none.
+    pub first_critical_rpm: Option<f64>,
     /// Flutter speed: lowest speed at which flutter counts, see `counted_rpm` of the bands.
-    pub flutter_speed_rpm: Option<f64>,
+    pub flutter_rpm: Option<f64>,
     /// Onset of the first flutter band, including weak ones.
     pub first_merge_rpm: Option<f64>,
     /// Growth rate above which a band counts as flutter.

@@ -65,7 +65,8 @@ impl Analysis {
             critical_speeds: critical,
             critical_speeds_without_damping: model.has_turning_damping(),
             instabilities: instabilities(analysis, &branches, scene.flutter_threshold_per_s()),
-            flutter_speed_rpm: analysis.flutter_speed_rad_per_s.map(rpm),
+            first_critical_rpm: analysis.first_critical_rpm(),
+            flutter_rpm: analysis.flutter_speed_rad_per_s.map(rpm),
             first_merge_rpm: analysis.first_merge_rad_per_s.map(rpm),
             flutter_threshold_per_s: scene.flutter_threshold_per_s(),
             verdict: judged(
@@ -343,13 +344,12 @@ impl OperatingPoint {
     /// Results at a speed, without the modes there.
     pub(crate) fn from_evidence(evidence: &Evidence<'_>, speed_rad_per_s: f64) -> Self {
         let critical = evidence.critical_rad_per_s;
-        let of_lowest_critical = critical.first().map(|lowest| speed_rad_per_s / lowest);
+        let of_first_critical = critical.first().map(|lowest| speed_rad_per_s / lowest);
         let verdict = evidence.verdict(speed_rad_per_s);
         let window = evidence.window_without_instability(speed_rad_per_s);
         OperatingPoint {
             rpm: rpm(speed_rad_per_s),
-            lowest_critical_rpm: critical.first().copied().map(rpm),
-            of_lowest_critical,
+            of_first_critical,
             stability: verdict.state,
             inside_instability: verdict.band,
             at_critical_rpm: verdict.critical.map(|place| rpm(critical[place])),

@@ -8,7 +8,7 @@ use proptest::strategy::ValueTree;
 use proptest::test_runner::{Config, RngAlgorithm, TestRng, TestRunner};
 
 use super::diagram::{self, curve};
-use super::draws::{any_saw, lowest_critical, scene};
+use super::draws::{any_saw, first_critical, scene};
 use super::root_loci;
 use super::{BranchCurve, Report, RootLoci};
 use crate::model::scene::{Accuracy, SceneFile, SweepFile, rpm};
@@ -22,7 +22,7 @@ fn report(file: &SceneFile, reach: f64) -> Report {
     let mut file = file.clone();
     file.sweep = Some(SweepFile {
         from_rpm: 0.0,
-        to_rpm: reach * rpm(lowest_critical(&file)),
+        to_rpm: reach * rpm(first_critical(&file)),
     });
     file.accuracy = Accuracy::Draft;
     let scene = scene(&file);

@@ -30,11 +30,11 @@ pub struct InCut {
 #[schemars(rename = "IdlingEntry")]
 pub struct Idling {
     /// Critical speeds within the sweep, ascending.
-    pub critical_speeds_rpm: Vec<f64>,
+    pub critical_rpm: Vec<f64>,
     /// Bands of instability within the sweep, by onset; their branches are not named.
     pub instabilities: Vec<InstabilityBand>,
     /// Flutter speed.
-    pub flutter_speed_rpm: Option<f64>,
+    pub flutter_rpm: Option<f64>,
     /// Onset of the first flutter band, including weak ones.
     pub first_merge_rpm: Option<f64>,
 }
@@ -65,11 +65,11 @@ impl Idling {
             .iter()
             .take_while(|speed| **speed <= to_rad_per_s);
         Idling {
-            critical_speeds_rpm: critical.map(|speed| rpm(*speed)).collect(),
+            critical_rpm: critical.map(|speed| rpm(*speed)).collect(),
             instabilities: bands
                 .map(|band| InstabilityBand::new(band, threshold_per_s))
                 .collect(),
-            flutter_speed_rpm: onsets.flutter_speed_rad_per_s.map(rpm),
+            flutter_rpm: onsets.flutter_speed_rad_per_s.map(rpm),
             first_merge_rpm: onsets.first_merge_rad_per_s.map(rpm),
         }
     }

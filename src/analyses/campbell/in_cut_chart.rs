@@ -28,15 +28,15 @@ pub fn chart(report: &Report) -> Option<ChartData> {
     let rows = [
         Row {
             name: "idling",
-            critical_rpm: idling.critical_speeds_rpm.clone(),
+            critical_rpm: idling.critical_rpm.clone(),
             bands: &idling.instabilities,
-            flutter_rpm: idling.flutter_speed_rpm,
+            flutter_rpm: idling.flutter_rpm,
         },
         Row {
             name: "in the cut",
             critical_rpm: critical.collect(),
             bands: &report.instabilities,
-            flutter_rpm: report.flutter_speed_rpm,
+            flutter_rpm: report.flutter_rpm,
         },
     ];
     let panels = rows

@@ -186,8 +186,7 @@ mod tests {
         let mut report = empty_report("A hot saw");
         report.operating = Some(OperatingPoint {
             rpm: 3000.0,
-            lowest_critical_rpm: Some(3000.0 / 0.7),
-            of_lowest_critical: Some(0.7),
+            of_first_critical: Some(0.7),
             stability: crate::analyses::campbell::StabilityState::Stable,
             inside_instability: None,
             at_critical_rpm: None,

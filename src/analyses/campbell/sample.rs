@@ -61,7 +61,8 @@ pub fn empty_report(name: &str) -> Report {
         critical_speeds_without_damping: false,
         critical_speeds: Vec::new(),
         instabilities: Vec::new(),
-        flutter_speed_rpm: None,
+        first_critical_rpm: None,
+        flutter_rpm: None,
         first_merge_rpm: None,
         flutter_threshold_per_s: 0.25,
         verdict: Verdict {
@@ -202,7 +203,7 @@ pub fn busy_report() -> Report {
     };
     let ends = standing.flat_map(|band| [band.from_rpm, band.to_rpm]);
     report.critical_speeds = ends.enumerate().map(critical).collect();
-    report.flutter_speed_rpm = Some(2392.0);
+    report.flutter_rpm = Some(2392.0);
     report.campbell = CampbellDiagram {
         from_rpm: 0.0,
         to_rpm: 3000.0,

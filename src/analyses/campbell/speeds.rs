@@ -85,11 +85,8 @@ pub struct InstabilityBand {
 pub struct OperatingPoint {
     /// The scene's operating speed.
     pub rpm: f64,
-    /// First critical speed, also above the sweep; null if the blade has none.
-    #[serde(default)]
-    pub lowest_critical_rpm: Option<f64>,
     /// Ratio of operating speed to first critical speed; null if the blade has no critical speed.
-    pub of_lowest_critical: Option<f64>,
+    pub of_first_critical: Option<f64>,
     /// Whether a motion grows at that speed.
     pub stability: StabilityState,
     /// Index into `instabilities` of the band that makes it unstable.

@@ -68,7 +68,7 @@ fn speeds(report: &CheckReport, last: f64) -> Vec<Item> {
         label: "end of the sweep".to_owned(),
         name: "end of the sweep".to_owned(),
     });
-    let critical = report.critical_speeds_rpm.iter().map(|rpm| Upright {
+    let critical = report.critical_rpm.iter().map(|rpm| Upright {
         name: format!("critical speed {rpm:.0} rpm"),
         ..Upright::critical(*rpm, "")
     });

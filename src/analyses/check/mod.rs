@@ -72,16 +72,27 @@ pub fn check(scene: &Scene, limits: &Limits) -> Result<CheckReport, CheckError> 
     if analysis.scene.operating_rad_per_s() != Some(limits.operating_rad_per_s) {
         analysis.look_at_slots(limits.operating_rad_per_s);
     }
-    let analysis = &analysis;
+    of_analysis(&analysis, scene, limits)
+}
+
+/// Compares a saw with limits by its analysis, which reaches as far as they require.
+///
+/// # Errors
+/// [`CheckError`] if the amplitude of flutter cannot be computed.
+pub(crate) fn of_analysis(
+    analysis: &Analysis,
+    scene: &Scene,
+    limits: &Limits,
+) -> Result<CheckReport, CheckError> {
     let angle = scene.cut_angle_rad();
     let plate = &point_load_plate(&analysis.scene, analysis.model.plate.resolution);
     let critical = analysis.critical_rad_per_s();
-    let lowest_critical = critical.first().copied();
+    let first_critical = critical.first().copied();
     let operating = limits.operating_rad_per_s;
-    let is_stiff = lowest_critical.is_none_or(|lowest| operating < lowest);
+    let is_stiff = first_critical.is_none_or(|lowest| operating < lowest);
     let lateral = lateral(scene, plate, operating);
     let bending =
-        lowest_critical.and_then(|critical| StaticDeflection::new(plate, angle, lateral, critical));
+        first_critical.and_then(|critical| StaticDeflection::new(plate, angle, lateral, critical));
     let saturations = match limits.limits.max_amplitude_m {
         None => Vec::new(),
         Some(_) => saturations(analysis)?,
@@ -115,7 +126,8 @@ pub fn check(scene: &Scene, limits: &Limits) -> Result<CheckReport, CheckError> 
         verdict,
         operating_rpm: rpm(operating),
         to_rpm: rpm(to_rad_per_s),
-        critical_speeds_rpm: critical
+        first_critical_rpm: first_critical.map(rpm),
+        critical_rpm: critical
             .into_iter()
             .take_while(|speed| *speed <= to_rad_per_s)
             .map(rpm)

@@ -34,8 +34,10 @@ pub struct CheckReport {
     pub operating_rpm: f64,
     /// Last speed of the sweep; results are limited to it.
     pub to_rpm: f64,
+    /// First critical speed, also above the sweep; null if the blade has none.
+    pub first_critical_rpm: Option<f64>,
     /// Critical speeds within the sweep, ascending.
-    pub critical_speeds_rpm: Vec<f64>,
+    pub critical_rpm: Vec<f64>,
     /// Every band of instability within the sweep.
     pub instabilities: Vec<InstabilityBand>,
     /// Growth rate above which a band counts.
@@ -70,7 +72,7 @@ pub struct CheckReport {
 #[serde(deny_unknown_fields)]
 #[schemars(rename = "RimStiffnessEntry")]
 pub struct RimStiffness {
-    /// Speeds from rest to just below the lowest critical one; empty if nothing holds the blade.
+    /// Speeds from rest to just below the first critical one; empty if nothing holds the blade.
     pub rpm: Vec<f64>,
     /// Stiffness at these speeds.
     pub n_per_m: Vec<f64>,

@@ -119,21 +119,21 @@ const TOGETHER: &[(&str, &[&str], &[&str])] = &[
     ),
     ("stretching", &["amplitude_m"], &["rpm", "frequency_hz"]),
     ("runs", &["deflection_m"], &["time_s"]),
-    ("flutter", &["quantiles"], &["lowest_critical.quantiles"]),
+    ("flutter", &["quantiles"], &["first_critical.quantiles"]),
     (
         "deflection_at_cut",
         &["quantiles"],
-        &["lowest_critical.quantiles"],
+        &["first_critical.quantiles"],
     ),
     (
         "largest_pad_force",
         &["quantiles"],
-        &["lowest_critical.quantiles"],
+        &["first_critical.quantiles"],
     ),
     (
         "critical_at_amplitude",
         &["quantiles"],
-        &["lowest_critical.quantiles"],
+        &["first_critical.quantiles"],
     ),
     ("differences", &["values"], &["saws"]),
 ];

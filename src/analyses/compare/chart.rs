@@ -50,7 +50,7 @@ pub fn chart(report: &CompareReport) -> ChartData {
     let speeds = coloured
         .enumerate()
         .flat_map(|(row, (saw, hue))| events(row, saw, hue));
-    let labels: Vec<String> = saws.map(|saw| saw.label.clone()).collect();
+    let labels: Vec<String> = saws.map(|saw| saw.name.clone()).collect();
     let names = labels
         .iter()
         .enumerate()
@@ -113,7 +113,7 @@ fn curves(saw: &ComparedSaw, hue: Hue) -> Vec<Item> {
         for (look, samples) in lines_by_look(samples, |i| Some(look(branch, i))) {
             let at = |i: usize| [branch.rpm[i], branch.frequency_hz[i]];
             let points = samples.into_iter().map(|i| i.map_or([f64::NAN; 2], at));
-            let name = format!("{}: {}", saw.label, branch.name);
+            let name = format!("{}: {}", saw.name, branch.name);
             items.push(Item::Line(Line {
                 width: match look {
                     Look::Growing => STRONG_CURVE,
@@ -161,7 +161,7 @@ fn events(row: usize, saw: &ComparedSaw, hue: Hue) -> Vec<Item> {
         let named = band.name.as_deref().unwrap_or_default();
         let name = format!(
             "{}: {:.0} to {:.0} rpm, up to {:.3} 1/s {named}",
-            saw.label, band.from_rpm, band.to_rpm, band.peak_growth_per_s
+            saw.name, band.from_rpm, band.to_rpm, band.peak_growth_per_s
         );
         Item::Line(Line {
             width: BAND,
@@ -177,11 +177,11 @@ fn events(row: usize, saw: &ComparedSaw, hue: Hue) -> Vec<Item> {
             places,
             hue,
             CRITICAL_SIZE,
-            &format!("{}: critical speeds", saw.label),
+            &format!("{}: critical speeds", saw.name),
         )
     });
     let operating = saw.operating.iter().map(|operating| {
-        let name = format!("{}: runs at {:.0} rpm", saw.label, operating.rpm);
+        let name = format!("{}: runs at {:.0} rpm", saw.name, operating.rpm);
         Item::Points(Points {
             shape: Shape::Ring,
             ..Points::new([[operating.rpm, y]], hue, 1.5 * CRITICAL_SIZE, &name)

@@ -79,27 +79,28 @@ pub fn compare(
 }
 
 /// Analyses a saw over the speeds of its scene; without any, up to a common end. The result has the stiffness of its rim.
-fn of_scene(label: String, scene: &Scene, end_rad_per_s: f64) -> Result<ComparedSaw, CompareError> {
+fn of_scene(name: String, scene: &Scene, end_rad_per_s: f64) -> Result<ComparedSaw, CompareError> {
     let analysed = || match scene.sweep() {
         Some(_) => Analysis::new(scene),
         None => Analysis::new(&scene.swept(SpeedRange::new(0.0, end_rad_per_s))?),
     };
-    let analysis = analysed().map_err(|reason| CompareError::Saw(label.clone(), reason))?;
+    let analysis = analysed().map_err(|reason| CompareError::Saw(name.clone(), reason))?;
     Ok(ComparedSaw {
         rim_stiffness_at_rest_n_per_m: rim_stiffness_at_rest_n_per_m(&analysis),
-        ..of_report(label, analysis.report())
+        ..of_report(name, analysis.report())
     })
 }
 
 /// A saw whose report exists already.
-fn of_report(label: String, report: Report) -> ComparedSaw {
+fn of_report(name: String, report: Report) -> ComparedSaw {
     ComparedSaw {
-        label,
+        name,
         scene: report.scene,
         condition: report.condition,
         critical_speeds: report.critical_speeds,
         instabilities: report.instabilities,
-        flutter_speed_rpm: report.flutter_speed_rpm,
+        first_critical_rpm: report.first_critical_rpm,
+        flutter_rpm: report.flutter_rpm,
         verdict: report.verdict,
         operating: report.operating,
         rim_stiffness_at_rest_n_per_m: None,

@@ -28,13 +28,13 @@ pub fn outline(report: &CompareReport) -> Outline {
     for saw in &report.saws {
         let operating = saw.operating.as_ref();
         if let Some(deviation) = operating.and_then(|at| at.deviation.as_ref()) {
-            text.sentence(format!("{}: {}", saw.label, deviation.in_words()));
+            text.sentence(format!("{}: {}", saw.name, deviation.in_words()));
         }
     }
     differences(&mut text, report);
     for saw in &report.saws {
         for warning in &saw.warnings {
-            text.sentence(format!("{}: {warning}", saw.label));
+            text.sentence(format!("{}: {warning}", saw.name));
         }
     }
     text
@@ -66,9 +66,9 @@ fn row(number_of_saw: usize, saw: &ComparedSaw, is_common: bool) -> [Value; 6] {
     });
     let stiffness = saw.rim_stiffness_at_rest_n_per_m;
     [
-        shortened(&format!("{number_of_saw} {}", saw.label), NAME).into(),
+        shortened(&format!("{number_of_saw} {}", saw.name), NAME).into(),
         SPEED.fixed(1, lowest(saw)),
-        SPEED.fixed(1, saw.flutter_speed_rpm),
+        SPEED.fixed(1, saw.flutter_rpm),
         saw.instabilities.len().into(),
         stiffness.map_or(Value::Missing, |n_per_m| fixed(2, 1e-3 * n_per_m).into()),
         verdict.map_or(Value::Missing, Value::from),
@@ -94,7 +94,7 @@ fn changes(first: &ComparedSaw, saw: &ComparedSaw) -> [Value; 6] {
     [
         "".into(),
         percent(lowest),
-        percent(|saw| saw.flutter_speed_rpm),
+        percent(|saw| saw.flutter_rpm),
         format!("{bands:+}").into(),
         percent(|saw| saw.rim_stiffness_at_rest_n_per_m),
         "".into(),

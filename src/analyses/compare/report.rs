@@ -26,19 +26,21 @@ pub struct CompareReport {
 #[serde(deny_unknown_fields)]
 #[schemars(rename = "ComparedEntry")]
 pub struct ComparedSaw {
-    /// Label of the saw: the name of its file, or the change of its scene.
-    pub label: String,
+    /// Name of the saw: that of its file, or the change of its scene.
+    pub name: String,
     /// Scene of the saw.
     pub scene: SceneFile,
     /// Whether the saw idles or is in its cut: "idling", or "in the cut at 2800 rpm (4 teeth)".
     #[serde(default)]
     pub condition: String,
+    /// First critical speed, also above the sweep; null if the blade has none.
+    pub first_critical_rpm: Option<f64>,
     /// Critical speeds up to the end of its sweep, ascending.
     pub critical_speeds: Vec<CriticalSpeed>,
     /// The bands of instability within its sweep.
     pub instabilities: Vec<InstabilityBand>,
     /// Lowest speed at which flutter counts.
-    pub flutter_speed_rpm: Option<f64>,
+    pub flutter_rpm: Option<f64>,
     /// Whether the saw can run at its operating speed.
     pub verdict: Verdict,
     /// Motions at its operating speed.

@@ -44,6 +44,8 @@ pub enum ArgumentKind {
     Speeds,
     /// Paths of numbers of the scene, with or without bounds.
     Bounds,
+    /// Paths of numbers of the scene, with values.
+    Values,
     /// A table of measured frequencies.
     Table,
     /// Words.
@@ -52,7 +54,7 @@ pub enum ArgumentKind {
 
 /// Extension of the schema: name on the command line, where it is not the name without its unit.
 const OPTION: &str = "x-option";
-/// Extension of the schema: `bounds` or `table`.
+/// Extension of the schema: `bounds`, `values` or `table`.
 const KIND: &str = "x-kind";
 /// Endings of names of arguments that are units, or say what kind of number it is.
 const ENDINGS: [&str; 6] = ["_m_per_s", "_share", "_rpm", "_deg", "_hz", "_m"];
@@ -153,6 +155,7 @@ impl ArgumentKind {
         };
         match (field[KIND].as_str(), type_of(field).as_str()) {
             (Some("bounds"), _) => ArgumentKind::Bounds,
+            (Some("values"), _) => ArgumentKind::Values,
             (Some("table"), _) => ArgumentKind::Table,
             (_, "number") => ArgumentKind::Number(default.as_f64()),
             (_, "integer") => ArgumentKind::Count(default.as_u64().unwrap_or_default()),

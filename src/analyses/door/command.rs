@@ -1,5 +1,7 @@
 //! A command of one saw.
 
+use std::path::Path;
+
 use schemars::JsonSchema;
 use serde::Serialize;
 use serde::de::DeserializeOwned;
@@ -26,6 +28,9 @@ pub trait CommandOptions: DeserializeOwned + JsonSchema {
     /// # Errors
     /// [`CommandError`].
     fn compute(&self, scene: &Scene, progress: Progress<'_>) -> Result<Self::Report, CommandError>;
+
+    /// Keeps what is found on the way in a folder, so that a stopped run goes on with it. Few commands are that long.
+    fn keep_in(&mut self, _folder: &Path) {}
 
     /// What the options assume of the scene, in words.
     fn assumptions(&self, _scene: &Scene) -> Option<String> {

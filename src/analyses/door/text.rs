@@ -3,7 +3,9 @@
 use serde_json::{Value, json};
 
 use super::{Argument, ArgumentKind};
-use crate::model::scene::{NamedBounds, Reading, RefusedValue, number_in, number_of, numbers_of};
+use crate::model::scene::{
+    NamedBounds, NamedValues, Reading, RefusedValue, number_in, number_of, numbers_of,
+};
 
 /// The number of a scene whose usual range decides how the text of a speed is read.
 const SPEED: &str = "operating_rpm";
@@ -49,6 +51,7 @@ impl Argument {
                 Err(refused) => Err(refused.to_string()),
             },
             ArgumentKind::Bounds => Ok(json!([named_bounds(text)?])),
+            ArgumentKind::Values => Ok(json!([named_values(text)?])),
             ArgumentKind::Flag
             | ArgumentKind::Word(_)
             | ArgumentKind::Table
@@ -73,4 +76,16 @@ pub fn named_bounds(text: &str) -> Result<NamedBounds, String> {
     let path = name.trim();
     let bound = |bound| number_of(path, bound).map_err(|refused| refused.to_string());
     Ok((path.to_owned(), Some((bound(from)?, bound(to)?))))
+}
+
+/// Reads a path of the scene with values: `blade.thickness_m=2.0mm,2.2mm,2.4mm`.
+fn named_values(text: &str) -> Result<NamedValues, String> {
+    let Some((name, values)) = text.split_once('=') else {
+        return Err(format!(
+            "it must have values (you gave {text:?}); write it like blade.thickness_m=2.0mm,2.2mm"
+        ));
+    };
+    let path = name.trim();
+    let read = numbers_of(path, path, values).map_err(|refused| refused.to_string())?;
+    Ok((path.to_owned(), read))
 }

@@ -204,7 +204,7 @@ impl AmplitudeChart {
                 stiffness_shares,
                 critical_rpm: within(linear, found.critical_rad_per_s),
                 instabilities: bands(linear, &found.instabilities),
-                flutter_speed_rpm: found.flutter_speed_rad_per_s.map(rpm),
+                flutter_rpm: found.flutter_speed_rad_per_s.map(rpm),
             })
         };
         let free = at(None)?;
@@ -220,7 +220,7 @@ impl AmplitudeChart {
                 stiffness_shares: vec![1.0; free.stiffness_shares.len()],
                 critical_rpm: within(linear, linear.critical_rad_per_s()),
                 instabilities: bands(linear, &linear.chart.instabilities),
-                flutter_speed_rpm: linear.flutter_speed_rad_per_s.map(rpm),
+                flutter_rpm: linear.flutter_speed_rad_per_s.map(rpm),
             },
             half_way_m: half_way(linear, &oscillating, smallest_gap_m)?,
             free,

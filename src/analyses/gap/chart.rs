@@ -122,7 +122,7 @@ fn speeds(report: &GapReport) -> PanelData {
     items.extend(critical_speeds(&columns));
     let flutter = columns
         .iter()
-        .filter_map(|(x, at)| Some([*x, at.flutter_speed_rpm?]));
+        .filter_map(|(x, at)| Some([*x, at.flutter_rpm?]));
     items.push(Item::Points(Points {
         shape: Shape::Ring,
         ..Points::new(flutter, Hue::Alarm, FLUTTER_SIZE, "flutter speed")

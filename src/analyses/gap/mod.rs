@@ -46,7 +46,7 @@ pub use options::Options;
 pub use oscillation_report::{
     Oscillation, OscillationAt, OscillationLine, OscillationPad, OscillationPlace,
 };
-pub(crate) use outline::{answer, outline};
+pub(crate) use outline::{answer, outline, wear};
 pub use report::{AtAmplitude, BasisError, DeviationMap, FrictionHeat, FrictionPad, GapReport};
 
 use amplitude::{AmplitudeChart, pushes};

@@ -68,6 +68,45 @@ pub fn answer(report: &GapReport) -> Outline {
     text
 }
 
+/// What wear of the guides takes: the first critical speed where they do not touch, and the deflection over the gap.
+pub fn wear(report: &GapReport) -> Outline {
+    let mut text = Outline::default();
+    let map = &report.deviation;
+    if let Some(free) = report.free.critical_rpm.first() {
+        text.sentence(format!(
+            "Wear of the guides: where the blade does not touch them, the first critical speed is {free:.0} rpm, of which {:.0} rpm is {:.0} %",
+            map.rpm,
+            1e2 * map.rpm / free
+        ));
+    }
+    let nearest = |x: &(usize, &f64), y: &(usize, &f64)| {
+        let away = |force: &f64| (force - map.force_n).abs();
+        away(x.1).total_cmp(&away(y.1))
+    };
+    let Some((column, force_n)) = map.forces_n.iter().enumerate().min_by(nearest) else {
+        return text;
+    };
+    let columns = [
+        gap_column(report),
+        Column::of("deflection at the cut", &LENGTH),
+    ];
+    let rows = map.gap_factors.iter().zip(&map.deflection_m);
+    let rows = rows.step_by(EVERY).map(|(factor, row)| {
+        let deflection_m = row.get(column).copied().flatten();
+        [
+            LENGTH.digits(3, factor * report.smallest_gap_m),
+            LENGTH.digits(3, deflection_m.map(f64::abs)),
+        ]
+    });
+    let title = format!(
+        "Deflection under {} N at {:.0} rpm",
+        shown_to(3, *force_n),
+        map.rpm
+    );
+    text.table(Table::new(title, columns).with_rows(rows));
+    text
+}
+
 const MEANING: &str = "The chart over the amplitude is the linear one with the mean stiffness of the guides over a sinusoidal oscillation \
      of the same amplitude at all of them; it is an approximation. Deflections are stationary ones, unless an oscillation is named.";
 
@@ -149,7 +188,7 @@ fn over_amplitude(report: &GapReport) -> Table {
             name,
             stiffness,
             SPEED.fixed(1, at.critical_rpm.first().copied()).or("none"),
-            SPEED.fixed(1, at.flutter_speed_rpm).or("none"),
+            SPEED.fixed(1, at.flutter_rpm).or("none"),
             at.instabilities.len().into(),
         ]
     };
@@ -332,8 +371,8 @@ fn heat(text: &mut Outline, map: &DeviationMap, friction: &FrictionHeat) {
             "first critical speed",
             format!(
                 "{}, without friction {} (linear guides)",
-                speed(friction.critical_rpm),
-                speed(friction.cold_critical_rpm)
+                speed(friction.first_critical_rpm),
+                speed(friction.cold_first_critical_rpm)
             ),
         ),
     ];

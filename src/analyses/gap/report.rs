@@ -86,9 +86,9 @@ pub struct FrictionHeat {
     /// Each one-sided pad, in the order of the scene.
     pub pads: Vec<FrictionPad>,
     /// First critical speed of the linear chart without this heat.
-    pub cold_critical_rpm: Option<f64>,
+    pub cold_first_critical_rpm: Option<f64>,
     /// First critical speed of the linear chart with this heat; null also if the temperature does not settle.
-    pub critical_rpm: Option<f64>,
+    pub first_critical_rpm: Option<f64>,
     /// Whether the temperature settles; otherwise the blade has no steady state, and its numbers are left out.
     pub settled: bool,
     /// Whether the temperature swings between two states, because power and deflection have a jump between them.
@@ -137,7 +137,7 @@ pub struct AtAmplitude {
     /// Bands of instability within the sweep.
     pub instabilities: Vec<InstabilityBand>,
     /// Flutter speed; null if no flutter counts within the sweep.
-    pub flutter_speed_rpm: Option<f64>,
+    pub flutter_rpm: Option<f64>,
 }
 
 /// Stationary deflection of the rim at the cut under the side force of the scene.

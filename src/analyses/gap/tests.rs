@@ -319,14 +319,17 @@ fn the_heat_of_a_point_pad_is_that_of_its_force() {
         let exact = disk.rise_k(*r, power_w, 0.17);
         assert!((found - exact).abs() < 5e-3 * peak, "{r}: {found} {exact}");
     }
-    let [cold, hot] = [heat.cold_critical_rpm, heat.critical_rpm].map(Option::unwrap);
+    let [cold, hot] = [heat.cold_first_critical_rpm, heat.first_critical_rpm].map(Option::unwrap);
     assert!((hot / cold - 1.0).abs() > 1e-3, "{hot} {cold}");
 
     // Ten times the friction buckles the blade: it has no steady state, and no numbers of one. Below the speed of the runaway the
     // temperature settles.
     let many = FrictionFile::of(2.0);
     let heat = FrictionHeat::new(&analysis, many, 2000.0).unwrap();
-    assert!(!heat.settled && heat.critical_rpm.is_none(), "{heat:?}");
+    assert!(
+        !heat.settled && heat.first_critical_rpm.is_none(),
+        "{heat:?}"
+    );
     assert!(heat.power_w.is_none() && heat.rise_k.is_empty() && heat.pad_forces_n.is_empty());
     let runaway = heat.runaway_rpm.unwrap();
     assert!(heat.unsettled().unwrap().contains("runs away from"));
@@ -405,7 +408,7 @@ fn power_is_that_of_the_forces_on_both_faces() {
             });
     });
     let critical = &Analysis::new(&typed.unwrap()).unwrap().model.critical[0];
-    let expected = heat.critical_rpm.unwrap();
+    let expected = heat.first_critical_rpm.unwrap();
     assert!((rpm(critical.speed_rad_per_s) / expected - 1.0).abs() < 1e-3);
 }
 

@@ -13,17 +13,28 @@ pub fn contours(
     rows: &[&[Option<f64>]],
     point: impl Fn([f64; 2]) -> [f64; 2],
 ) -> Vec<Contour> {
-    let mut contours = Vec::new();
-    for rpm in levels(rows.iter().copied().flatten().flatten().copied()) {
-        for places in joined(segments(rows, rpm)) {
-            contours.push(Contour {
-                quantity,
-                rpm,
-                points: places.into_iter().map(&point).collect(),
-            });
-        }
-    }
-    contours
+    let levels = levels(rows.iter().copied().flatten().flatten().copied());
+    let all = levels.into_iter().flat_map(|rpm| {
+        let lines = lines(rows, rpm, &point).into_iter();
+        lines.map(move |points| Contour {
+            quantity,
+            rpm,
+            points,
+        })
+    });
+    all.collect()
+}
+
+/// Lines at a level of values over a grid, as for [`contours`].
+pub fn lines(
+    rows: &[&[Option<f64>]],
+    level: f64,
+    point: impl Fn([f64; 2]) -> [f64; 2],
+) -> Vec<Vec<[f64; 2]>> {
+    let joined = joined(segments(rows, level)).into_iter();
+    joined
+        .map(|places| places.into_iter().map(&point).collect())
+        .collect()
 }
 
 /// Round speeds strictly between the smallest and the largest value.

@@ -16,7 +16,7 @@
 //! let x = Range { path: "blade.thickness_m".into(), from: 0.0025, to: 0.0030 };
 //! let options = Options { points: Some(3), ..Options::over(x) };
 //! let saws = map(scene, &options, &|_, _| ())?.saws;
-//! let rpm = |saw: usize| saws[saw].lowest_critical_rpm.unwrap();
+//! let rpm = |saw: usize| saws[saw].first_critical_rpm.unwrap();
 //! // The critical speed of a blade without guides is proportional to its thickness.
 //! assert!((rpm(2) / rpm(0) / 1.2 - 1.0).abs() < 1e-3);
 //! # Ok::<(), Box<dyn std::error::Error>>(())
@@ -120,6 +120,12 @@ impl Map {
         }
         let axis = |key, range| MapAxis::new(&scene, key, range, points);
         let x = axis("x", &options.x)?;
+        // The saw of the scene is one of the row.
+        let x = if options.y.is_none() {
+            x.with_scene()
+        } else {
+            x
+        };
         let y = options
             .y
             .as_ref()

@@ -1,8 +1,10 @@
 //! The text of a map.
 
+use std::collections::BTreeSet;
+
 use super::{MapAxis, MapReport, MappedSaw};
 use crate::analyses::study::accuracy_of_saws;
-use crate::analyses::verdict::{Answer, Verdict};
+use crate::analyses::verdict::{Answer, Criterion, Verdict};
 use crate::page::outline::{Column, Outline, PLAIN, SPEED, Table, Value};
 use crate::page::text::{counted, shown, shown_to};
 
@@ -24,6 +26,9 @@ pub fn outline(report: &MapReport) -> Outline {
     }
     if report.y.is_none() {
         if let Some(words) = windows(report) {
+            text.reason(words);
+        }
+        for words in kept(report) {
             text.reason(words);
         }
         text.table(saws_of(report));
@@ -120,6 +125,54 @@ fn windows(report: &MapReport) -> Option<String> {
     })
 }
 
+/// Where each limit of a speed begins or ceases to be kept: "85 % rule: kept from 2.36 mm on".
+fn kept(report: &MapReport) -> Vec<String> {
+    let criteria = report.saws.iter().flat_map(MappedSaw::criteria);
+    let mut limits: Vec<&Criterion> = Vec::new();
+    for criterion in criteria.filter(|criterion| criterion.distance().is_some()) {
+        if limits.iter().all(|limit| limit.key != criterion.key) {
+            limits.push(criterion);
+        }
+    }
+    let words = limits.into_iter().filter_map(|limit| {
+        let of = |saw: &MappedSaw| {
+            let mut own = saw
+                .criteria()
+                .filter(|criterion| criterion.key == limit.key);
+            own.next()?.distance()
+        };
+        let ends = crossings(report.saws.iter().map(|saw| Some([saw.x, of(saw)?])));
+        if ends.is_empty() {
+            return None;
+        }
+        let value = |x: f64| {
+            format!("{} {}", shown_to(4, x), report.x.unit)
+                .trim_end()
+                .to_owned()
+        };
+        let ends = ends.into_iter().map(|(x, rises)| {
+            if rises {
+                format!("from {} on", value(x))
+            } else {
+                format!("up to {}", value(x))
+            }
+        });
+        let ends: Vec<String> = ends.collect();
+        Some(format!("{}: kept {}", limit.name, ends.join(", ")))
+    });
+    words.collect()
+}
+
+/// Places at which a number changes its sign between two neighbours, by linear interpolation, and whether it rises there.
+fn crossings(points: impl Iterator<Item = Option<[f64; 2]>>) -> Vec<(f64, bool)> {
+    let points: Vec<Option<[f64; 2]>> = points.collect();
+    let pairs = points.windows(2).filter_map(|pair| pair[0].zip(pair[1]));
+    pairs
+        .filter(|([_, left], [_, right])| (*left < 0.0) != (*right < 0.0))
+        .map(|([x, left], [next, right])| (x + (next - x) * left / (left - right), right > left))
+        .collect()
+}
+
 /// Last part of the path of a number.
 fn key(axis: &MapAxis) -> &str {
     axis.path.rsplit('.').next().unwrap_or(&axis.path)
@@ -128,8 +181,8 @@ fn key(axis: &MapAxis) -> &str {
 /// Adds the saws with the lowest and the highest flutter speed and critical speed.
 fn speeds(text: &mut Outline, report: &MapReport) {
     let kinds: [(&str, Speed); 2] = [
-        ("Flutter speed", |saw| saw.flutter_speed_rpm),
-        ("First critical speed", |saw| saw.lowest_critical_rpm),
+        ("Flutter speed", |saw| saw.flutter_rpm),
+        ("First critical speed", |saw| saw.first_critical_rpm),
     ];
     for (name, of) in kinds {
         let known = report.saws.iter().filter_map(|saw| Some((of(saw)?, saw)));
@@ -151,7 +204,7 @@ fn speeds(text: &mut Outline, report: &MapReport) {
     let beyond = report
         .saws
         .iter()
-        .filter(|saw| saw.flutter_speed_rpm.is_none() && saw.not_analysed.is_none());
+        .filter(|saw| saw.flutter_rpm.is_none() && saw.not_analysed.is_none());
     match beyond.count() {
         0 => (),
         count => text.reason(format!(
@@ -194,7 +247,7 @@ fn place(report: &MapReport, saw: &MappedSaw) -> String {
     all.collect::<Vec<_>>().join(", ")
 }
 
-/// Evenly spaced saws, with the first and the last.
+/// Evenly spaced saws, with the first, the last and that of the scene.
 fn saws_of(report: &MapReport) -> Table {
     let columns = [
         Column::words(key(&report.x)),
@@ -202,27 +255,53 @@ fn saws_of(report: &MapReport) -> Table {
         Column::of("flutter", &SPEED),
         Column::words("bands"),
         Column::words("verdict"),
+        Column::words(""),
     ];
     let last = report.saws.len().saturating_sub(1);
     let count = SAWS.min(report.saws.len());
     let spaced = (0..count).map(|k| k * last / count.saturating_sub(1).max(1));
-    let rows = spaced.filter_map(|k| report.saws.get(k)).map(|saw| {
-        let state: Value = match &saw.verdict {
-            _ if saw.not_analysed.is_some() => "not analysed".into(),
-            None => Value::Missing,
-            Some(verdict) => verdict.in_table().into(),
-        };
-        [
-            PLAIN.digits(6, saw.x),
-            SPEED.fixed(1, saw.lowest_critical_rpm),
-            SPEED.fixed(1, saw.flutter_speed_rpm),
-            saw.instabilities.len().into(),
-            state,
-        ]
-    });
+    let is_own = |saw: &MappedSaw| saw.x == report.x.of_scene;
+    let own = report.saws.iter().position(is_own);
+    let shown: BTreeSet<usize> = spaced.chain(own).collect();
+    let count = shown.len();
+    let rows = shown
+        .into_iter()
+        .filter_map(|k| report.saws.get(k))
+        .map(|saw| {
+            let state: Value = match &saw.verdict {
+                _ if saw.not_analysed.is_some() => "not analysed".into(),
+                None => Value::Missing,
+                Some(verdict) => verdict.in_table().into(),
+            };
+            [
+                PLAIN.digits(6, saw.x),
+                SPEED.fixed(1, saw.first_critical_rpm),
+                SPEED.fixed(1, saw.flutter_rpm),
+                saw.instabilities.len().into(),
+                state,
+                Value::Word(if is_own(saw) { "the scene" } else { "" }.to_owned()),
+            ]
+        });
     let title = match report.saws.len() {
         all if all > count => format!("{count} of {all} saws; map.json has all"),
         _ => String::new(),
     };
-    Table::new(title, columns).with_rows(rows)
+    Table::new(title, columns)
+        .showing(usize::MAX)
+        .with_rows(rows)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_limit_is_kept_from_where_its_distance_rises_through_zero() {
+        let points = [[1.0, -3.0], [2.0, 1.0], [3.0, 2.0], [4.0, -2.0]];
+        let found = crossings(points.into_iter().map(Some));
+        assert_eq!(found, [(1.75, true), (3.5, false)]);
+        // A saw that was not analysed leaves the crossing open.
+        let hole = [Some([1.0, -1.0]), None, Some([3.0, 1.0])];
+        assert!(crossings(hole.into_iter()).is_empty());
+    }
 }

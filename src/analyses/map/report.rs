@@ -4,7 +4,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use crate::analyses::campbell::InstabilityBand;
-use crate::analyses::verdict::Verdict;
+use crate::analyses::verdict::{Criterion, Verdict};
 use crate::model::scene::SceneFile;
 
 /// Report of a map (`map.json`).
@@ -70,9 +70,9 @@ pub struct MappedSaw {
     /// Value of the number along the vertical axis; null for a map over the speed.
     pub y: Option<f64>,
     /// First critical speed; null if the blade has none.
-    pub lowest_critical_rpm: Option<f64>,
+    pub first_critical_rpm: Option<f64>,
     /// Flutter speed; null if no flutter counts within the sweep.
-    pub flutter_speed_rpm: Option<f64>,
+    pub flutter_rpm: Option<f64>,
     /// Critical speeds within the sweep, ascending.
     pub critical_rpm: Vec<f64>,
     /// Bands of instability within the sweep, by onset.
@@ -87,6 +87,20 @@ pub struct MappedSaw {
     pub not_analysed: Option<String>,
 }
 
+impl MappedSaw {
+    /// Smallest distance from a limit of a speed relative to it, negative if one is not kept.
+    pub(super) fn distance(&self) -> Option<f64> {
+        self.criteria()
+            .filter_map(Criterion::distance)
+            .reduce(f64::min)
+    }
+
+    /// The limits, with their results.
+    pub(super) fn criteria(&self) -> impl Iterator<Item = &Criterion> {
+        self.verdict.iter().flat_map(|verdict| &verdict.limits)
+    }
+}
+
 /// A quantity of which a map over two numbers has contours.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
@@ -95,7 +109,9 @@ pub enum Contoured {
     /// The flutter speed.
     FlutterSpeed,
     /// The first critical speed.
-    LowestCriticalSpeed,
+    FirstCriticalSpeed,
+    /// The distance from the limits of speeds, where it is zero at the speed of the map.
+    Limits,
 }
 
 /// A line of equal speed.
@@ -105,7 +121,7 @@ pub enum Contoured {
 pub struct Contour {
     /// Quantity that is constant along the line.
     pub quantity: Contoured,
-    /// Value of this quantity.
+    /// Value of this quantity; for the limits, the speed at which the saws are judged.
     pub rpm: f64,
     /// Points of the line: values of x and of y.
     pub points: Vec<[f64; 2]>,

@@ -2,7 +2,7 @@
 
 use rayon::prelude::*;
 
-use super::contour::contours;
+use super::contour::{contours, lines};
 use super::{Contour, Contoured, Map, MapReport, MappedSaw};
 use crate::analyses::board_deviation::BoardDeviation;
 use crate::analyses::campbell::InstabilityBand;
@@ -68,8 +68,8 @@ impl Map {
             side_force_factor,
             x: self.x.values[saw.index % columns],
             y: self.y.as_ref().map(|y| y.values[saw.index / columns]),
-            lowest_critical_rpm: found.lowest_critical_rpm,
-            flutter_speed_rpm: found.flutter_rpm,
+            first_critical_rpm: found.first_critical_rpm,
+            flutter_rpm: found.flutter_rpm,
             critical_rpm: found.critical_rpm.iter().copied().filter(within).collect(),
             instabilities: found.bands.clone(),
             verdict,
@@ -132,11 +132,20 @@ impl Map {
                 [self.x.at(column), y.at(row)]
             })
         };
-        let flutter = of(Contoured::FlutterSpeed, |saw| saw.flutter_speed_rpm);
-        let critical = of(Contoured::LowestCriticalSpeed, |saw| {
-            saw.lowest_critical_rpm
+        let flutter = of(Contoured::FlutterSpeed, |saw| saw.flutter_rpm);
+        let critical = of(Contoured::FirstCriticalSpeed, |saw| saw.first_critical_rpm);
+        let limits = self.rpm.map(|rpm| {
+            let distances: Vec<Option<f64>> = saws.iter().map(MappedSaw::distance).collect();
+            let rows: Vec<_> = distances.chunks(self.x.values.len()).collect();
+            let lines = lines(&rows, 0.0, |[column, row]| [self.x.at(column), y.at(row)]);
+            let contour = |points| Contour {
+                quantity: Contoured::Limits,
+                rpm,
+                points,
+            };
+            lines.into_iter().map(contour).collect::<Vec<_>>()
         });
-        [flutter, critical].concat()
+        [flutter, critical, limits.unwrap_or_default()].concat()
     }
 }
 

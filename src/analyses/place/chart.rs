@@ -14,6 +14,8 @@ use crate::page::figure::style::CURVE;
 const SHARES: [f64; 2] = [1.45, 1.0];
 /// Height of the panel of the front.
 const FRONT_SHARE: f64 = 0.7;
+/// Smallest range of an axis of speeds, as a share of them: numerical noise is no dependence.
+const NARROWEST: f64 = 0.02;
 const FRONT_SIZE: f64 = 6.0;
 /// Room around the points of the front, as a share of their range.
 const FRONT_ROOM: f64 = 0.1;
@@ -22,9 +24,8 @@ const CROSS_SIZE: f64 = 10.0;
 const SCENE_SIZE: f64 = 10.0;
 const FRAGILE_SIZE: f64 = 12.0;
 
-/// The map, as numbers, and the front below it; `None` if the report contains no map.
+/// The map, as numbers, and the front below it; `None` if the report contains neither.
 pub fn chart(report: &PlaceReport) -> Option<ChartData> {
-    let map = report.map.as_ref()?;
     let (title, goal) = match report.goal {
         Goal::FlutterSpeed => (
             "Flutter speed over the position of the guide",
@@ -32,15 +33,27 @@ pub fn chart(report: &PlaceReport) -> Option<ChartData> {
         ),
         Goal::StableWindow => ("Stable window around the operating speed", "stable window"),
     };
-    let x = Along::of_cells(&map.x_path, &map.x);
-    let panel = match &map.y_path {
-        Some(path) => over_two(report, map, x, Along::of_cells(path, &map.y)),
-        None => over_one(report, map, x, goal),
+    let map = report.map.as_ref().map(|map| {
+        let x = Along::of_cells(&map.x_path, &map.x);
+        match &map.y_path {
+            Some(path) => over_two(report, map, x, Along::of_cells(path, &map.y)),
+            None => over_one(report, map, x, goal),
+        }
+    });
+    let panels: Vec<PanelData> = map.into_iter().chain(front(report, goal)).collect();
+    if panels.is_empty() {
+        return None;
+    }
+    let (title, key) = match &report.map {
+        Some(map) => (title.to_owned(), key(report, map)),
+        None => {
+            let title = format!("Worst {goal} against the deflection at the cut");
+            (title, Vec::new())
+        }
     };
-    let panels = [panel].into_iter().chain(front(report, goal)).collect();
     Some(ChartData {
-        key: key(report, map),
-        ..ChartData::new(title, facts(report), panels)
+        key,
+        ..ChartData::new(&title, facts(report), panels)
     })
 }
 
@@ -104,11 +117,10 @@ fn facts(report: &PlaceReport) -> Vec<String> {
         if report.fragile { "fragile, " } else { "" },
         100.0 * report.worst_neighbour_share
     );
-    let coarse = "map: coarse model".to_owned();
     [report.condition.clone(), best]
         .into_iter()
         .chain(values)
-        .chain([worst, coarse])
+        .chain([worst])
         .collect()
 }
 
@@ -119,11 +131,14 @@ fn goals(map: &GoalMap, row: usize) -> Vec<f64> {
     goals.map(|goal| goal.unwrap_or(f64::NAN)).collect()
 }
 
-/// Smallest and largest goal in rpm; if all are equal, a range around them.
+/// Smallest and largest goal in rpm, with a range around them if they hardly differ.
 fn range(rows: &[Vec<f64>]) -> [f64; 2] {
     match extremes(rows.iter().flatten().copied().filter(|rpm| rpm.is_finite())) {
-        [low, high] if low < high => [low, high],
-        [low, _] if low.is_finite() => [0.99 * low, 1.01 * low + 1.0],
+        [low, high] if low.is_finite() => {
+            let middle = 0.5 * (low + high);
+            let half = (0.5 * (high - low)).max(0.5 * NARROWEST * middle).max(1.0);
+            [middle - half, middle + half]
+        }
         _ => [0.0, 1.0],
     }
 }
@@ -289,7 +304,7 @@ mod tests {
         let outcome = Outcome {
             goal_rpm: 2300.0,
             flutter_rpm: Some(2300.0),
-            critical_rpm: Some(1600.0),
+            first_critical_rpm: Some(1600.0),
             window_rpm: None,
             deflection_m: None,
             kept: true,
@@ -311,6 +326,7 @@ mod tests {
             offset: 0.002,
             less_rpm: Some(2250.0),
             more_rpm: None,
+            across_rpm: None,
         };
         let (x, y) = (vec![0.2, 0.25, 0.3], vec![1e6, 1e7, 1e8]);
         let rows = if y_path.is_some() { 3 } else { 1 };
@@ -357,14 +373,14 @@ mod tests {
                 FrontSaw {
                     values: vec![0.3, 2e7],
                     flutter_rpm: Some(2100.0),
-                    critical_rpm: Some(1700.0),
+                    first_critical_rpm: Some(1700.0),
                     worst_goal_rpm: 2040.0,
                     deflection_m: 2e-5,
                 },
                 FrontSaw {
                     values: vec![0.25, 2e7],
                     flutter_rpm: Some(2300.0),
-                    critical_rpm: Some(1600.0),
+                    first_critical_rpm: Some(1600.0),
                     worst_goal_rpm: 2093.0,
                     deflection_m: 3e-5,
                 },
@@ -408,10 +424,16 @@ mod tests {
             let goal = all.iter().any(|text| text.contains("worst flutter speed"));
             assert!(goal, "{all:?}");
         }
+        // Without a map the front is drawn alone; without a front, nothing is.
         let without = PlaceReport {
             map: None,
             ..report(None)
         };
-        assert!(chart(&without).is_none());
+        let _drawn = sheet(&chart(&without).unwrap());
+        let neither = PlaceReport {
+            front: Vec::new(),
+            ..without
+        };
+        assert!(chart(&neither).is_none());
     }
 }

@@ -1,5 +1,7 @@
 //! The goal of a placement, its limits, and the extent of the search.
 
+use std::path::PathBuf;
+
 use super::Goal;
 use crate::analyses::gap::{self, GapCase};
 use crate::model::plate::Resolution;
@@ -76,7 +78,7 @@ impl Demands {
 }
 
 /// Extent of the search.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct Options {
     /// Number of initial samples.
     pub samples: usize,
@@ -91,6 +93,8 @@ pub struct Options {
     pub resolution: Option<Resolution>,
     /// Tolerances of production.
     pub tolerances: Tolerances,
+    /// Folder in which the saws are kept, so that a stopped search goes on with them, and the best scene found so far.
+    pub folder: Option<PathBuf>,
 }
 
 /// Tolerances of production, to either side of the nominal value.
@@ -171,6 +175,7 @@ impl Default for Options {
             map: 0,
             resolution: None,
             tolerances: Tolerances::default(),
+            folder: None,
         }
     }
 }

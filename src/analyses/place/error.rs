@@ -19,6 +19,9 @@ pub enum PlaceError {
         /// Number of saws tried.
         tried: usize,
     },
+    /// The log of the saws cannot be used.
+    #[error("cannot use the log of the saws: {0}")]
+    Log(#[from] std::io::Error),
     /// A scene was refused.
     #[error(transparent)]
     Scene(#[from] SceneError),

@@ -75,7 +75,7 @@ fn weighed(search: &Search<'_>, saw: &Weighed, resolution: Resolution) -> Option
     Some(FrontSaw {
         values: search.values(&saw.shares),
         flutter_rpm: own.flutter_rpm,
-        critical_rpm: own.critical_rpm,
+        first_critical_rpm: own.first_critical_rpm,
         worst_goal_rpm,
         deflection_m,
     })
@@ -108,7 +108,7 @@ mod tests {
         let saw = |k: usize| FrontSaw {
             values: vec![k as f64],
             flutter_rpm: None,
-            critical_rpm: None,
+            first_critical_rpm: None,
             deflection_m: ((37 * k) % 17) as f64,
             worst_goal_rpm: ((53 * k) % 23) as f64,
         };

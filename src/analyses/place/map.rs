@@ -31,9 +31,8 @@ fn next(paths: &[&str], order: &[usize]) -> Option<usize> {
 }
 
 /// The map of a search, and the saws in its cells, best first.
-#[derive(Default)]
 pub struct Mapped {
-    pub map: Option<GoalMap>,
+    pub map: GoalMap,
     pub cells: Vec<Tried>,
 }
 
@@ -75,10 +74,7 @@ pub fn through(search: &Search<'_>, at: &[f64], points: usize, progress: Progres
         goal_rpm: rows().map(|row| row.iter().map(goal).collect()).collect(),
         kept: rows().map(|row| row.iter().map(kept).collect()).collect(),
     };
-    Mapped {
-        map: Some(map),
-        cells,
-    }
+    Mapped { map, cells }
 }
 
 #[cfg(test)]

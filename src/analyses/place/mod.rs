@@ -25,6 +25,7 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
+mod across;
 pub(crate) mod chart;
 mod choice;
 mod demands;
@@ -32,6 +33,7 @@ mod deviation;
 mod error;
 mod front;
 mod map;
+mod memory;
 mod neighbours;
 mod outcome;
 mod outline;
@@ -45,6 +47,7 @@ use std::convert::Infallible;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
 use rayon::prelude::*;
+use serde_json::{Value, json};
 
 use crate::analyses::campbell::{InstabilityBand, statement};
 use crate::analyses::door::Progress;
@@ -56,6 +59,7 @@ use choice::{Choice, Weighed, basis_of_all, settle};
 pub use demands::{Demands, GapDemands, Options, Tolerances};
 pub use error::PlaceError;
 use map::Mapped;
+use memory::Memory;
 use neighbours::Neighbours;
 use outcome::{Computed, IDLE, Question, REFUSED};
 pub use report::{
@@ -75,16 +79,15 @@ const COARSE_STEPS: [f64; 2] = [0.08, 5e-3];
 /// Factor by which the refinement on the fine basis has fewer steps: it moves an optimum only a little, and each
 /// saw takes ten times as long.
 const SETTLED: u64 = 3;
-/// Number of samples, and of cells of the map, best at their nominal numbers, that are compared on the finer
-/// basis too.
+/// Number of samples, best at their nominal numbers, that are compared on the finer basis too.
 const MOST_PROMISING: usize = 3;
 /// A share nearer to a bound than this is taken for the bound.
 const AT_BOUND: f64 = 1e-3;
 /// Shares at which the effect of a number is examined.
 const LOOKED_AT: [f64; 2] = [0.23, 0.71];
 /// Searches for the saw that is best in the worst case of its tolerances: it computes even samples of the
-/// bounds, refines the best of them by direct search (MADS), draws a map through the result, and refines the
-/// best saws on the basis that the tolerance of the scene requires.
+/// bounds, refines the best of them by direct search (MADS), refines the best saws on the basis that the tolerance of the scene
+/// requires, and draws a map through the result on the same basis.
 ///
 /// # Errors
 /// [`PlaceError`] if no free number has an effect, or no saw can be analysed.
@@ -102,7 +105,11 @@ pub fn place(
         resolution: options.resolution.unwrap_or(basis.saw.plate.resolution),
         tolerances: options.tolerances,
     };
-    let all = Search::new(scene.file(), freed, question.clone());
+    let memory = match &options.folder {
+        None => Memory::none(),
+        Some(folder) => Memory::of(folder, &inputs(scene, freed, demands))?,
+    };
+    let all = Search::new(scene.file(), freed, question.clone(), &memory);
     let Parted {
         moving: freed,
         idle: without_effect,
@@ -113,16 +120,12 @@ pub fn place(
         return Err(PlaceError::NothingFree);
     }
     let typed: Vec<f64> = freed.iter().map(|f| f.share_of(scene.file())).collect();
-    let coarse = Search::new(scene.file(), &freed, question.clone());
-    let Looked {
-        candidates,
-        traded,
-        map,
-    } = look_everywhere(&coarse, &typed, options, progress)?;
+    let coarse = Search::new(scene.file(), &freed, question.clone(), &memory);
+    let Looked { candidates, traded } = look_everywhere(&coarse, &typed, options, progress)?;
     if options.resolution.is_none() {
         question.resolution = basis_of_all(scene, &freed, &candidates, question.range)?;
     }
-    let fine = Search::new(scene.file(), &freed, question.clone());
+    let fine = Search::new(scene.file(), &freed, question.clone(), &memory);
     let all_candidates = [&candidates[..], &traded].concat();
     let settled = settle(&fine, &all_candidates, options.refine / SETTLED, progress);
     let answer = question.ask(scene)?;
@@ -135,6 +138,11 @@ pub fn place(
     } = Choice::between(&fine, scene, settled, &before)?;
     let fragile_optimum = fragile_optimum(&fine, &best);
     let front = front::front(&fine, &traded, &best, question.resolution);
+    let across_rpm = across::goals_rpm(&fine, &best.shares);
+    let map = (options.map > 1).then(|| {
+        let Mapped { map, .. } = map::through(&fine, &best.shares, options.map, progress);
+        map
+    });
     Cancellation::current().check()?;
     let tally = all.tally().and(coarse.tally()).and(fine.tally());
     let threshold_per_s = placed.flutter_threshold_per_s();
@@ -163,7 +171,7 @@ pub fn place(
         from_rpm: rpm(question.range.from_rad_per_s),
         to_rpm: rpm(question.range.to_rad_per_s),
         flutter_threshold_per_s: threshold_per_s,
-        parameters: parameters(scene, &placed, &freed, &best)?,
+        parameters: parameters(scene, &placed, &freed, &best, &across_rpm)?,
         without_effect: without_effect.iter().map(path).collect(),
         before: before.computed.outcome,
         worst_before: before.neighbours.worst,
@@ -194,6 +202,17 @@ pub fn place(
         report.warnings.push(word);
     }
     Ok(report)
+}
+
+/// What a log of saws belongs to.
+fn inputs(scene: &Scene, freed: &[Freed], demands: &Demands) -> Value {
+    let bounds = freed.iter().map(|of| (path(of), of.from, of.to));
+    json!({
+        "sawflutter": env!("CARGO_PKG_VERSION"),
+        "scene": scene.file(),
+        "free": bounds.collect::<Vec<_>>(),
+        "demands": format!("{demands:?}"),
+    })
 }
 
 fn path(freed: &Freed) -> String {
@@ -232,6 +251,7 @@ fn parameters(
     placed: &Scene,
     freed: &[Freed],
     best: &Weighed,
+    across_rpm: &[Option<[f64; 2]>],
 ) -> Result<Vec<PlacedParameter>, SceneError> {
     let numbers = freed.iter().enumerate().map(|(k, freed)| {
         let [less_rpm, more_rpm] = best.neighbours.along_rpm[k];
@@ -242,6 +262,7 @@ fn parameters(
             bound_from: freed.from,
             bound_to: freed.to,
             at_bound: !(AT_BOUND..=1.0 - AT_BOUND).contains(&best.shares[k]),
+            across_rpm: across_rpm[k],
             offset: best.neighbours.offsets[k],
             less_rpm,
             more_rpm,
@@ -253,16 +274,14 @@ fn parameters(
 /// Result of the search on the coarse basis.
 struct Looked {
     /// Candidates for the finer basis: the results of the refinements, the original scene, the samples that are best
-    /// within their tolerances, and the samples and cells that are best at their nominal numbers, because the finer
-    /// basis may move a jump past a saw, or away from it.
+    /// within their tolerances, and the samples that are best at their nominal numbers, because the finer basis may move a jump
+    /// past a saw, or away from it.
     candidates: Vec<Tried>,
     /// Saws that deflect less at the cut than the best one.
     traded: Vec<Tried>,
-    map: Option<GoalMap>,
 }
 
-/// Samples the bounds, refines the best samples and draws the map through the best saw; a better cell of the
-/// map is refined too.
+/// Samples the bounds and refines the best samples.
 fn look_everywhere(
     search: &Search<'_>,
     own: &[f64],
@@ -287,10 +306,11 @@ fn look_everywhere(
     let refined = |start: &Tried| search.refine(start, COARSE_STEPS, options.refine, &see);
     let mut candidates: Vec<Tried> = starts.par_iter().map(refined).collect();
     let best = cheapest(&candidates).ok_or(PlaceError::NoSaw { tried: samples })?;
-    let Mapped { map, cells } = if options.map > 1 {
-        map::through(search, &best.shares, options.map, progress)
+    // The cells of a map, which is drawn on the final basis later, are starts too.
+    let cells = if options.map > 1 {
+        map::through(search, &best.shares, options.map, progress).cells
     } else {
-        Mapped::default()
+        Vec::new()
     };
     let of_map = search.most_robust(&cells, 1, 0.0).pop();
     let better = of_map.filter(|cell| cell.cost < best.cost);
@@ -304,11 +324,7 @@ fn look_everywhere(
     candidates.retain(|one| one.cost < REFUSED);
     candidates.sort_by(|x, y| x.cost.total_cmp(&y.cost));
     candidates.dedup_by(|x, y| x.shares == y.shares);
-    Ok(Looked {
-        candidates,
-        traded,
-        map,
-    })
+    Ok(Looked { candidates, traded })
 }
 
 /// Divides the free numbers into those that move a critical speed or a band, and the others.
@@ -319,7 +335,7 @@ fn parted(scene: &Scene, search: &Search<'_>) -> Parted {
             [
                 saw.value_rad_per_s,
                 saw.outcome.deflection_m.unwrap_or(0.0),
-                saw.outcome.critical_rpm.unwrap_or(0.0),
+                saw.outcome.first_critical_rpm.unwrap_or(0.0),
                 first.map_or(0.0, |band| band.from_rad_per_s),
             ]
         };

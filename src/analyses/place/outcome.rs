@@ -1,5 +1,7 @@
 //! Result of a saw in a placement.
 
+use serde::{Deserialize, Serialize};
+
 use crate::analyses::gap::GapError;
 use crate::model::plate::Resolution;
 use crate::model::scene::{Scene, SpeedRange, rpm};
@@ -12,7 +14,7 @@ use super::deviation::operating_deviation_m;
 use super::{Demands, Outcome, Tolerances};
 
 /// A saw of a search.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Computed {
     pub outcome: Outcome,
     /// Value of the goal, to be maximized.
@@ -27,6 +29,9 @@ pub struct Computed {
     /// Certificate of this list of bands.
     pub certificate: Certificate,
 }
+
+/// The result of a saw, or the reason why it could not be computed (`None` if there is no such saw).
+pub type Known = Result<Computed, Option<String>>;
 
 /// Goal, limits, speeds and basis with which every saw of a search is computed.
 #[derive(Debug, Clone)]
@@ -121,7 +126,7 @@ impl Question {
             outcome: Outcome {
                 goal_rpm: rpm(value_rad_per_s),
                 flutter_rpm: flutter.map(rpm),
-                critical_rpm: lowest.map(rpm),
+                first_critical_rpm: lowest.map(rpm),
                 window_rpm: window.map(|range| range.ends().map(rpm)),
                 deflection_m,
                 kept: short == 0.0,

@@ -6,6 +6,9 @@ use crate::analyses::verdict::Verdict;
 use crate::page::outline::{Column, Fact, LENGTH, Outline, SPEED, Table};
 use crate::page::text::{counted, shown_to};
 
+/// Relative difference of two goals that are the same for a designer.
+const SAME: f64 = 5e-3;
+
 pub fn outline(report: &PlaceReport) -> Outline {
     let mut text = Outline::of(
         &report.scene.name,
@@ -83,7 +86,7 @@ fn outcomes(report: &PlaceReport, goal: &str) -> Vec<Fact> {
     };
     let mut facts = vec![
         both("flutter speed", |o| o.flutter_rpm),
-        both("first critical speed", |o| o.critical_rpm),
+        both("first critical speed", |o| o.first_critical_rpm),
     ];
     if report.goal == Goal::StableWindow {
         facts.push(both("stable from", |o| o.window_rpm.map(|w| w[0])));
@@ -129,6 +132,20 @@ fn neighbours(text: &mut Outline, report: &PlaceReport, goal: &str) {
             rpm(more_rpm),
         ]
     });
+    for parameter in &report.parameters {
+        if let Some([low, high]) = parameter.across_rpm
+            && high - low <= SAME * high
+        {
+            text.sentence(format!(
+                "{} does not matter here: {:.0} ± {:.1} rpm from {} to {}",
+                parameter.path,
+                0.5 * (low + high),
+                0.5 * (high - low),
+                short(parameter.bound_from),
+                short(parameter.bound_to)
+            ));
+        }
+    }
     let sentence = format!("{goal} with one dimension off by its tolerance");
     let title = sentence[..1].to_uppercase() + &sentence[1..];
     let table = Table::new(title, columns).showing(usize::MAX);
@@ -146,6 +163,10 @@ fn front(text: &mut Outline, report: &PlaceReport, goal: &str) {
     let [first, .., last] = report.front.as_slice() else {
         return;
     };
+    let gained = (last.worst_goal_rpm - first.worst_goal_rpm).abs();
+    if gained <= SAME * last.worst_goal_rpm {
+        return;
+    }
     let force = report.force_n.map(short).unwrap_or_default();
     let rpm = report.scene.operating_rpm.map(short).unwrap_or_default();
     text.sentence(format!(
@@ -169,7 +190,7 @@ fn front(text: &mut Outline, report: &PlaceReport, goal: &str) {
             LENGTH.digits(3, saw.deflection_m),
             SPEED.fixed(0, saw.worst_goal_rpm),
             speed(saw.flutter_rpm),
-            speed(saw.critical_rpm),
+            speed(saw.first_critical_rpm),
             values.join(", ").into(),
         ]
     });

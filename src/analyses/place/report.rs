@@ -131,6 +131,9 @@ pub struct PlacedParameter {
     pub less_rpm: Option<f64>,
     /// Value of the goal if the number is larger by `offset`; null in the same cases.
     pub more_rpm: Option<f64>,
+    /// Smallest and largest value of the goal at five values of this number from bound to bound, while the others keep their best
+    /// values; null if one of these saws misses a limit or could not be computed.
+    pub across_rpm: Option<[f64; 2]>,
 }
 
 /// Value of the goal for one saw, and the speeds that determine it.
@@ -144,7 +147,7 @@ pub struct Outcome {
     /// Flutter speed; null if it exceeds the sweep.
     pub flutter_rpm: Option<f64>,
     /// First critical speed.
-    pub critical_rpm: Option<f64>,
+    pub first_critical_rpm: Option<f64>,
     /// Window without instability around the operating speed, if it is the goal.
     pub window_rpm: Option<[f64; 2]>,
     /// Deflection at the cut, as an absolute value, if it has a limit.
@@ -191,7 +194,7 @@ pub struct FrontSaw {
     /// Flutter speed; null if it exceeds the sweep.
     pub flutter_rpm: Option<f64>,
     /// First critical speed.
-    pub critical_rpm: Option<f64>,
+    pub first_critical_rpm: Option<f64>,
     /// The goal in the worst case of the tolerances.
     pub worst_goal_rpm: f64,
     /// Deflection at the cut under the side force at the operating speed, as an absolute value.
@@ -292,7 +295,7 @@ impl PlaceReport {
             .worst_neighbour
             .as_ref()
             .and_then(|worst| worst.outcome);
-        let critical = worst.and_then(|worst| worst.critical_rpm);
+        let critical = worst.and_then(|worst| worst.first_critical_rpm);
         let short = self.min_critical_rpm.zip(critical).filter(|(asked, found)| found < asked).map(|(asked, found)| {
             format!(
                 "NO saw tried keeps the limit of the critical speed in the worst case of its tolerances; this one misses it by the smallest amount, {:.0} rpm",

@@ -1,8 +1,11 @@
 //! Goal, limits, tolerances and extent of a placement as options of the command.
 
+use std::path::{Path, PathBuf};
+
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
+use super::memory::PLACED;
 use super::{Demands, GapDemands, Options, PlaceError, PlaceReport, Tolerances, place};
 use crate::analyses::door::{CommandError, CommandOptions, Progress, SceneNumber};
 use crate::model::scene::{Freed, NamedBounds, Scene, SceneFile};
@@ -34,6 +37,9 @@ pub struct Request {
     pub guide_tolerance_share: f64,
     /// Tolerance of other numbers, as a share of each.
     pub other_tolerance_share: f64,
+    /// Folder in which the saws are kept, so that a stopped search goes on with them; set by the command line.
+    #[serde(skip)]
+    pub folder: Option<PathBuf>,
 }
 
 /// Quantity to maximize.
@@ -61,6 +67,7 @@ impl Default for Request {
             angle_tolerance_deg: options.tolerances.angle_deg,
             guide_tolerance_share: options.tolerances.guide_share,
             other_tolerance_share: options.tolerances.other_share,
+            folder: None,
         }
     }
 }
@@ -97,6 +104,7 @@ impl CommandOptions for Request {
                 guide_share: self.guide_tolerance_share,
                 other_share: self.other_tolerance_share,
             },
+            folder: self.folder.clone(),
             ..Options::default()
         }
         .checked()?;
@@ -104,9 +112,13 @@ impl CommandOptions for Request {
         Ok(place(scene, &freed, &demands, &options, progress)?)
     }
 
+    fn keep_in(&mut self, folder: &Path) {
+        self.folder = Some(folder.to_owned());
+    }
+
     /// A saw that misses a limit is no result to go on with.
     fn resulting_scene(report: &PlaceReport) -> Option<(&'static str, Option<&SceneFile>)> {
-        Some(("placed-scene.json", report.kept.then_some(&report.scene)))
+        Some((PLACED, report.kept.then_some(&report.scene)))
     }
 
     fn is_kept(report: &PlaceReport) -> bool {

@@ -13,21 +13,23 @@ use std::sync::atomic::{AtomicUsize, Ordering::Relaxed};
 use std::sync::{Mutex, MutexGuard, PoisonError};
 
 use rayon::prelude::*;
+use serde_json::{Value, json};
 
 use crate::analyses::door::Step;
+use crate::model::plate::Resolution;
 use crate::model::scene::{Freed, SceneFile, rpm, scene_at, spread};
 use crate::modes::Cancellation;
 
-use super::outcome::{Computed, Question, REFUSED};
-
-/// The result of a saw, or the reason why it could not be computed (`None` if there is no such saw).
-type Known = Result<Computed, Option<String>>;
+use super::memory::Memory;
+use super::outcome::{Computed, Known, Question, REFUSED};
 
 /// The saws of a search. Each is computed once.
 pub struct Search<'a> {
     pub scene: &'a SceneFile,
     pub freed: &'a [Freed],
     question: Question,
+    /// What an earlier run has computed, and where this one is kept.
+    memory: &'a Memory,
     /// Results by the bits of the shares.
     known: Mutex<HashMap<Vec<u64>, Known>>,
     /// Smallest cost in the worst case of the tolerances among the saws whose neighbours are all computed.
@@ -88,20 +90,33 @@ impl Tried {
 }
 
 impl<'a> Search<'a> {
-    pub fn new(scene: &'a SceneFile, freed: &'a [Freed], question: Question) -> Self {
+    pub fn new(
+        scene: &'a SceneFile,
+        freed: &'a [Freed],
+        question: Question,
+        memory: &'a Memory,
+    ) -> Self {
         Search {
             scene,
             freed,
             question,
+            memory,
             known: Mutex::default(),
             least_worst: Mutex::new(REFUSED),
         }
     }
 
-    /// Counts a saw all of whose neighbours are computed.
-    pub fn rated(&self, worst_cost: f64) {
+    /// Counts a saw all of whose neighbours are computed. The best so far is on the disk at once.
+    pub fn rated(&self, shares: &[f64], worst_cost: f64) {
         let mut least = self.least_worst();
-        *least = least.min(worst_cost);
+        if worst_cost < *least {
+            *least = worst_cost;
+            if worst_cost <= 0.0
+                && let Ok(scene) = scene_at(self.scene, self.freed, shares)
+            {
+                self.memory.show(scene.file());
+            }
+        }
     }
 
     fn least_worst(&self) -> MutexGuard<'_, f64> {
@@ -130,17 +145,36 @@ impl<'a> Search<'a> {
         let key: Vec<u64> = shares.iter().map(|share| share.to_bits()).collect();
         let known = self.known().get(&key).cloned();
         let found = known.unwrap_or_else(|| {
-            let found = match scene_at(self.scene, self.freed, shares) {
-                Ok(scene) => self.question.ask(&scene).map_err(|e| Some(e.to_string())),
-                Err(_) => Err(None),
-            };
+            let saw = self.named(shares);
+            let recalled = self.memory.recall(&saw);
+            let found = recalled.clone().unwrap_or_else(|| self.asked(shares));
             // A saw whose computation was cancelled has no result, and did not fail.
             if !Cancellation::current().is_cancelled() {
                 self.known().insert(key, found.clone());
+                if recalled.is_none() {
+                    self.memory.keep(saw, &found);
+                }
             }
             found
         });
         found.ok()
+    }
+
+    fn asked(&self, shares: &[f64]) -> Known {
+        match scene_at(self.scene, self.freed, shares) {
+            Ok(scene) => self.question.ask(&scene).map_err(|e| Some(e.to_string())),
+            Err(_) => Err(None),
+        }
+    }
+
+    /// What distinguishes a saw from others of the same placement.
+    fn named(&self, shares: &[f64]) -> Value {
+        let paths: Vec<&str> = self.freed.iter().map(|of| of.parameter.path()).collect();
+        let Resolution {
+            max_diameters,
+            radial_functions,
+        } = self.question.resolution;
+        json!([[max_diameters, radial_functions], paths, shares])
     }
 
     /// Tolerance of a number with this value.
@@ -245,7 +279,6 @@ pub fn cheapest(tried: &[Tried]) -> Option<Tried> {
 mod tests {
     use super::*;
     use crate::analyses::place::{Demands, Tolerances};
-    use crate::model::plate::Resolution;
     use crate::model::scene::{Accuracy, Scene, SceneError, SpeedRange};
     use crate::stability::InstabilityKind;
 
@@ -263,7 +296,8 @@ mod tests {
     fn a_cancelled_saw_is_not_counted_as_failed() {
         let scene = Scene::paper();
         let freed = [Freed::with_usual_bounds(&scene, "guides[0].radius_m").unwrap()];
-        let search = Search::new(scene.file(), &freed, question());
+        let memory = Memory::none();
+        let search = Search::new(scene.file(), &freed, question(), &memory);
         let cancellation = Cancellation::default();
         cancellation.cancel();
         let found = cancellation.watched(|| search.computed(&[0.5]).is_some());
@@ -276,7 +310,9 @@ mod tests {
             range: SpeedRange::between_rpm(0.0, 1e6),
             ..question()
         };
-        let search = Search::new(scene.file(), &freed, too_fast);
+        // The saws of another range of speeds are others.
+        let memory = Memory::none();
+        let search = Search::new(scene.file(), &freed, too_fast, &memory);
         assert!(search.computed(&[0.5]).is_none());
         assert_eq!((search.tally().saws, search.tally().failed), (1, 1));
     }

@@ -83,7 +83,7 @@ impl Search<'_> {
                 }
             }
         }
-        self.rated(worst);
+        self.rated(shares, worst);
         worst
     }
 

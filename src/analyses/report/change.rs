@@ -25,7 +25,7 @@ pub struct Change {
     /// Changed value.
     pub to: f64,
     /// First critical speed of the changed saw, also above the sweep; null if it has none.
-    pub critical_rpm: Option<f64>,
+    pub first_critical_rpm: Option<f64>,
     /// Its flutter speed; null if the sweep contains none.
     pub flutter_rpm: Option<f64>,
 }
@@ -70,7 +70,7 @@ impl Change {
                 path: parameter.path().to_owned(),
                 from,
                 to,
-                critical_rpm: onsets.lowest_critical_rad_per_s.map(rpm),
+                first_critical_rpm: onsets.first_critical_rad_per_s.map(rpm),
                 flutter_rpm: onsets.flutter_speed_rad_per_s.map(rpm),
             });
             if changes.len() == SHOWN {

@@ -9,8 +9,8 @@ impl CommandOptions for Options {
     const COMMAND: &str = "report";
     const METHOD: &str = "run_report";
 
-    fn compute(&self, scene: &Scene, _: Progress<'_>) -> Result<DesignReport, CommandError> {
-        Ok(report(scene, self)?)
+    fn compute(&self, scene: &Scene, progress: Progress<'_>) -> Result<DesignReport, CommandError> {
+        Ok(report(scene, self, progress)?)
     }
 }
 
@@ -20,6 +20,7 @@ impl From<DesignError> for CommandError {
             DesignError::Scene(source) => source.into(),
             DesignError::Response(source) => source.into(),
             DesignError::Gap(source) => source.into(),
+            DesignError::Size(source) => source.into(),
             other => CommandError::failed(other),
         }
     }

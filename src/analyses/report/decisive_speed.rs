@@ -46,14 +46,14 @@ impl DecidedSpeed {
     pub(super) fn rpm(self, report: &Report) -> Option<f64> {
         match self {
             DecidedSpeed::FirstCritical => report.critical_speeds.first().map(|first| first.rpm),
-            DecidedSpeed::Flutter => report.flutter_speed_rpm,
+            DecidedSpeed::Flutter => report.flutter_rpm,
         }
     }
 
     /// Its value for a saw without a diagram, in rpm; infinite if it has none.
     pub(super) fn of_onsets(self, onsets: &Onsets) -> f64 {
         let found = match self {
-            DecidedSpeed::FirstCritical => onsets.lowest_critical_rad_per_s,
+            DecidedSpeed::FirstCritical => onsets.first_critical_rad_per_s,
             DecidedSpeed::Flutter => onsets.flutter_speed_rad_per_s,
         };
         found.map_or(f64::INFINITY, rpm)

@@ -1,7 +1,9 @@
 //! Reasons for which a report fails.
 
+use crate::analyses::check::CheckError;
 use crate::analyses::gap::GapError;
 use crate::analyses::response::ResponseError;
+use crate::analyses::size::SizeError;
 use crate::model::scene::SceneError;
 use crate::modes::SpectrumError;
 use crate::stability::{AnalysisError, SensitivityError};
@@ -24,6 +26,12 @@ pub enum DesignError {
     /// The steady response could not be computed.
     #[error(transparent)]
     Response(#[from] ResponseError),
+    /// The saw with another clamp could not be checked.
+    #[error(transparent)]
+    Check(#[from] CheckError),
+    /// The thickness that keeps the limits could not be found.
+    #[error(transparent)]
+    Size(#[from] SizeError),
     /// The guides with a gap could not be evaluated.
     #[error(transparent)]
     Gap(#[from] GapError),

@@ -11,6 +11,7 @@ mod command;
 mod decisive_speed;
 mod error;
 mod options;
+mod other_clamp;
 mod outline;
 mod pad;
 
@@ -18,6 +19,7 @@ pub use change::Change;
 pub use decisive_speed::{DecidedSpeed, DecisiveSpeed};
 pub use error::DesignError;
 pub use options::Options;
+pub use other_clamp::OtherClamp;
 pub(crate) use outline::outline;
 pub use pad::LoadedPad;
 
@@ -27,8 +29,10 @@ use serde::{Deserialize, Serialize};
 use super::campbell::{Report, Sensitivity, caution};
 use super::gap::{self, GapError, GapReport, gap};
 use super::response::{self, ResponseReport};
-use super::verdict::Verdict;
-use crate::model::scene::{Scene, SceneFile};
+use super::size::{SizeReport, size};
+use super::verdict::{Answer, Verdict};
+use crate::analyses::door::Progress;
+use crate::model::scene::{Freed, Scene, SceneFile};
 use crate::stability::Analysis;
 
 /// Report of a saw for a decision (`design.json`).
@@ -64,17 +68,29 @@ pub struct DesignReport {
     /// Linear pads under the side force at the cut at the operating speed; empty unless the saw is stable there.
     #[serde(default)]
     pub pads: Vec<LoadedPad>,
+    /// The saw whose collar holds the blade in its plane the other way; null without a collar or an operating speed.
+    pub other_clamp: Option<OtherClamp>,
+    /// Thicknesses of the blade with which the saw keeps its limits; null unless it does not keep them now.
+    pub thickness: Option<SizeReport>,
     /// Guides with a gap; null if no guide is one-sided.
     pub gap: Option<GapReport>,
     /// Remarks on the validity of the result.
     pub warnings: Vec<String>,
 }
 
+/// Thickest blade that is tried where the saw does not keep its limits, relative to its own, and number of thicknesses.
+const MOST: f64 = 2.0;
+const THICKNESSES: usize = 9;
+
 /// Computes the report of a saw.
 ///
 /// # Errors
 /// [`DesignError`].
-pub fn report(scene: &Scene, options: &Options) -> Result<DesignReport, DesignError> {
+pub fn report(
+    scene: &Scene,
+    options: &Options,
+    progress: Progress<'_>,
+) -> Result<DesignReport, DesignError> {
     let still = scene.idling()?;
     let cutting = scene.cutting_rpm().map(|rpm| scene.charted_in_cut(rpm));
     let cutting = cutting.transpose()?;
@@ -140,8 +156,15 @@ pub fn report(scene: &Scene, options: &Options) -> Result<DesignReport, DesignEr
     let verdicts = [Some(&idling), in_cut.as_ref()].into_iter().flatten();
     let worst = verdicts.map(|report| &report.verdict);
     let worst = worst.max_by_key(|verdict| verdict.answer).cloned();
+    let verdict = worst.unwrap_or_else(|| idling.verdict.clone());
+    let thickness = match verdict.answer {
+        None | Some(Answer::Yes) => None,
+        Some(Answer::AtRisk | Answer::No) => thickness(deciding_scene, progress)?,
+    };
     Ok(DesignReport {
-        verdict: worst.unwrap_or_else(|| idling.verdict.clone()),
+        verdict,
+        other_clamp: OtherClamp::of(deciding_scene)?,
+        thickness,
         sawflutter: idling.sawflutter.clone(),
         scene: scene.file().clone(),
         condition,
@@ -160,6 +183,16 @@ pub fn report(scene: &Scene, options: &Options) -> Result<DesignReport, DesignEr
     })
 }
 
+/// Thicknesses with which a saw keeps its limits, up to twice its own; `None` where the scene refuses such a blade.
+fn thickness(scene: &Scene, progress: Progress<'_>) -> Result<Option<SizeReport>, DesignError> {
+    let own_m = scene.file().blade.thickness_m;
+    let freed = Freed::new(scene.file(), "blade.thickness_m", own_m, MOST * own_m);
+    let sized = freed
+        .ok()
+        .map(|freed| size(scene, &[freed], THICKNESSES, progress));
+    Ok(sized.transpose()?)
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -170,7 +203,7 @@ mod tests {
             file.accuracy = Accuracy::Draft;
             change(file);
         });
-        report(&scene.unwrap(), &Options::default()).unwrap()
+        report(&scene.unwrap(), &Options::default(), &|_| ()).unwrap()
     }
 
     /// Without guides every critical speed is in proportion to the thickness h, to √E and to 1/√ρ: tolerances of 1 % of each change it by
@@ -194,7 +227,7 @@ mod tests {
         let [thickness] = found.changes.as_slice() else {
             panic!("{:?}", found.changes);
         };
-        let ratio = thickness.critical_rpm.unwrap() / critical.rpm.unwrap();
+        let ratio = thickness.first_critical_rpm.unwrap() / critical.rpm.unwrap();
         assert!((ratio / (3.0 / 2.8) - 1.0).abs() < 1e-4, "{ratio}");
     }
 
@@ -211,18 +244,15 @@ mod tests {
             Analysis::new(&edited.unwrap()).unwrap().report()
         };
         let operating = found.scene.operating_rpm;
-        assert_eq!(
-            found.idling.flutter_speed_rpm,
-            scene(None).flutter_speed_rpm
-        );
-        assert_eq!(cut.flutter_speed_rpm, scene(operating).flutter_speed_rpm);
+        assert_eq!(found.idling.flutter_rpm, scene(None).flutter_rpm);
+        assert_eq!(cut.flutter_rpm, scene(operating).flutter_rpm);
         let margins: Vec<f64> = found
             .speeds
             .iter()
             .filter_map(|speed| speed.margin_rpm)
             .collect();
         assert_eq!(margins.len(), 4);
-        assert!((margins[3] - (cut.flutter_speed_rpm.unwrap() - operating.unwrap())).abs() < 1e-9);
+        assert!((margins[3] - (cut.flutter_rpm.unwrap() - operating.unwrap())).abs() < 1e-9);
         // Both changes raise the flutter speed in the cut.
         assert_eq!(
             (found.raised, found.changes.len()),
@@ -232,9 +262,41 @@ mod tests {
             assert!(
                 change
                     .flutter_rpm
-                    .is_none_or(|rpm| rpm > cut.flutter_speed_rpm.unwrap())
+                    .is_none_or(|rpm| rpm > cut.flutter_rpm.unwrap())
             );
         }
+    }
+
+    /// Source: analyses by hand of this saw of 550 mm with two pads, with either condition of the collar and with eight thicknesses.
+    #[test]
+    #[cfg_attr(debug_assertions, ignore = "many eigenproblems: run it in release")]
+    fn a_saw_at_risk_has_its_thickness_and_its_other_clamp() {
+        let pad = |angle: f64| {
+            format!(
+                r#"{{"radius_m": 0.22, "angle_deg": {angle}, "radial_length_m": 0.06, "tangential_length_m": 0.05,
+                    "stiffness_n_per_m": 1e7}}"#
+            )
+        };
+        let [left, right] = [-40.0, 40.0].map(pad);
+        let saw = Scene::from_json(&format!(
+            r#"{{"name": "oak", "accuracy": "draft", "operating_rpm": 2400, "guides": [{left}, {right}],
+                "blade": {{"outer_diameter_m": 0.55, "inner_diameter_m": 0.04, "thickness_m": 0.0022, "teeth": 36, "material":
+                    {{"youngs_modulus_pa": 2.1e11, "poisson_ratio": 0.3, "density_kg_per_m3": 7850}}}},
+                "mount": {{"kind": "collar", "diameter_m": 0.12, "in_plane": "free"}}}}"#
+        ));
+        let found = report(&saw.unwrap(), &Options::default(), &|_| ()).unwrap();
+        assert_eq!(found.verdict.answer, Some(Answer::AtRisk));
+        let other = found.other_clamp.unwrap();
+        assert_eq!(other.in_plane, crate::model::scene::InPlane::Fixed);
+        let rpm = other.first_critical_rpm.unwrap();
+        assert!((rpm / 2421.0 - 1.0).abs() < 3e-3, "{rpm}");
+        assert_eq!(other.verdict.cause.as_deref(), Some("critical"));
+        let sized = found.thickness.unwrap();
+        let [window] = sized.windows.as_slice() else {
+            panic!("{:?}", sized.windows);
+        };
+        assert!((window.from / 2.36e-3 - 1.0).abs() < 3e-3, "{window:?}");
+        assert_eq!(sized.answer.unwrap().value, 2.4e-3);
     }
 
     /// Rolling inwards lowers the first critical speed of this blade, so that less of it raises the speed.
@@ -247,12 +309,15 @@ mod tests {
                 "mount": {"kind": "collar", "diameter_m": 0.13, "in_plane": "fixed"},
                 "membrane": {"roll_tension": [{"radius_m": 0.14, "width_m": 0.02, "eigenstrain": -8e-4}]}}"#,
         );
-        let found = report(&saw.unwrap(), &Options::default()).unwrap();
+        let found = report(&saw.unwrap(), &Options::default(), &|_| ()).unwrap();
         let mut changes = found.changes.iter();
         let rolling = changes
             .find(|change| change.path.ends_with("eigenstrain"))
             .unwrap();
         assert!((rolling.to + 6.4e-4).abs() < 1e-12, "{rolling:?}");
-        assert!(rolling.critical_rpm > found.speeds[0].rpm, "{rolling:?}");
+        assert!(
+            rolling.first_critical_rpm > found.speeds[0].rpm,
+            "{rolling:?}"
+        );
     }
 }

@@ -3,7 +3,7 @@
 use super::{Change, DecisiveSpeed, DesignReport, LoadedPad};
 use crate::analyses::board_deviation::BoardDeviation;
 use crate::analyses::campbell::{Report, answer, checks};
-use crate::analyses::{gap, response};
+use crate::analyses::{gap, response, size};
 use crate::model::scene::{ForceCause, Quantity};
 use crate::page::outline::{Column, FORCE, Fact, Outline, SPEED, Table, Value};
 use crate::page::text::{shown, shown_to};
@@ -28,11 +28,19 @@ pub fn outline(report: &DesignReport) -> Outline {
     if deviations(report).all(|deviation| deviation.in_words() != sawing) {
         text.sentence(sawing);
     }
+    text.extend(windows(report));
     text.table(speeds(report));
+    if let Some(other) = &report.other_clamp {
+        text.sentence(other.in_words());
+    }
+    if let Some(sized) = &report.thickness {
+        text.sentence(size::headline(sized));
+    }
     text.table(changes(report));
     text.extend(pads(report));
     if let Some(gap) = &report.gap {
         text.extend(gap::answer(gap));
+        text.extend(gap::wear(gap));
     }
     for analysis in conditions(report) {
         if report.in_cut.is_some() {
@@ -42,6 +50,22 @@ pub fn outline(report: &DesignReport) -> Outline {
     }
     text.extend(assumed(report));
     text.remarks("Warning", &report.warnings);
+    text
+}
+
+/// All speeds at which the saw keeps its limits, and what was not judged.
+fn windows(report: &DesignReport) -> Outline {
+    let mut text = Outline::default();
+    if let [_, _, ..] = report.verdict.windows_rpm.as_slice() {
+        let all = report.verdict.windows_rpm.iter();
+        let all: Vec<String> = all
+            .map(|[from, to]| format!("{from:.0} to {to:.0}"))
+            .collect();
+        text.sentence(format!("It can run at {} rpm", all.join(", ")));
+    }
+    if report.scene.cut.is_none() {
+        text.sentence("In the cut: not judged, the scene has no cut");
+    }
     text
 }
 
@@ -151,7 +175,7 @@ fn changes(report: &DesignReport) -> Table {
             change.path.clone().into(),
             value(change.from),
             value(change.to),
-            SPEED.fixed(0, change.critical_rpm),
+            SPEED.fixed(0, change.first_critical_rpm),
             SPEED.fixed(0, change.flutter_rpm),
         ]
     });

@@ -5,6 +5,7 @@
 //! operating speed of the scene. Ranges narrower than the distance of two saws can be missed.
 
 pub(crate) mod chart;
+mod each;
 mod edge;
 mod error;
 mod options;
@@ -15,8 +16,8 @@ mod saw;
 
 pub use error::SizeError;
 pub use options::Options;
-pub(crate) use outline::outline;
-pub use report::{SizeAnswer, SizeReport, SizedLimit, SizedWindow};
+pub(crate) use outline::{headline, outline};
+pub use report::{SizeAnswer, SizeReport, SizedEach, SizedFor, SizedLimit, SizedWindow};
 
 use std::sync::atomic::{AtomicUsize, Ordering};
 
@@ -62,11 +63,23 @@ pub fn size(
         scene,
         freed,
         tolerance: None,
+        swept: None,
         is_whole: false,
     };
     let quick = Question {
         tolerance: (tolerance > scene.tolerance()).then_some(tolerance),
         ..exact
+    };
+    let to = first.to.max(of_scene);
+    let swept = |question: &Question<'_>| is_speed.then(|| question.analysed_to(to)).transpose();
+    let [of_exact, of_quick] = [swept(&exact)?, swept(&quick)?];
+    let exact = Question {
+        swept: of_exact.as_ref(),
+        ..exact
+    };
+    let quick = Question {
+        swept: of_quick.as_ref(),
+        ..quick
     };
     let values = values(first, of_scene, points);
     let count = values.len();
@@ -128,6 +141,7 @@ pub fn size(
         values,
         windows,
         answer: answer.map(|(answer, _)| answer),
+        each: None,
         searched_tolerance: tolerance,
         saws: asked.into_inner(),
         warnings,

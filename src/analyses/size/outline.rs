@@ -1,6 +1,6 @@
 //! The text of a sized number.
 
-use super::{SizeReport, SizedWindow};
+use super::{SizeReport, SizedEach, SizedWindow};
 use crate::analyses::scene_number::{FigureUnit, unit};
 use crate::page::outline::{Column, Outline, PERCENT, PLAIN, Table, Value};
 use crate::page::text::{counted, shown, shown_to};
@@ -74,6 +74,9 @@ pub fn outline(report: &SizeReport) -> Outline {
         of(report, report.to),
         of(report, report.of_scene)
     ));
+    if let Some(each) = &report.each {
+        text.table(rows(report, each));
+    }
     text.table(saws(report));
     text.remarks("Warning", &report.warnings);
     text.details(|text| {
@@ -99,7 +102,12 @@ pub fn headline(report: &SizeReport) -> String {
         Some(rpm) => format!(" for {} rpm", shown_to(6, rpm)),
         None => String::new(),
     };
-    let subject = format!("{}{at}", report.name);
+    let ranges = ranges(report, &report.windows, [report.from, report.to]);
+    format!("{}{at}: {ranges}", report.name)
+}
+
+/// The ranges in words, of values between two bounds.
+fn ranges(report: &SizeReport, windows: &[SizedWindow], bounds: [f64; 2]) -> String {
     let range = |window: &SizedWindow| {
         let [from, to] = [window.from, window.to].map(|end| of(report, end));
         match (&window.below, &window.above) {
@@ -109,12 +117,33 @@ pub fn headline(report: &SizeReport) -> String {
             (None, None) => format!("any from {from} to {to}"),
         }
     };
-    let ranges: Vec<String> = report.windows.iter().map(range).collect();
+    let ranges: Vec<String> = windows.iter().map(range).collect();
     if ranges.is_empty() {
-        let [from, to] = [report.from, report.to].map(|end| of(report, end));
-        return format!("{subject}: no value from {from} to {to} keeps all limits");
+        let [from, to] = bounds.map(|end| of(report, end));
+        return format!("no value from {from} to {to} keeps all limits");
     }
-    format!("{subject}: {}", ranges.join(", or "))
+    ranges.join(", or ")
+}
+
+/// The ranges for every value of another number.
+fn rows(report: &SizeReport, each: &SizedEach) -> Table {
+    let path = each.paths.first().map_or("", String::as_str);
+    let FigureUnit { symbol, factor } = unit(path);
+    let columns = [
+        Column::of(each.name.clone(), &PLAIN).in_unit(symbol),
+        Column::words(report.name.clone()),
+        Column::words(""),
+    ];
+    let mut table = Table::new("", columns).showing(usize::MAX);
+    for row in &each.rows {
+        let own = if row.is_of_scene { "the scene" } else { "" };
+        table.row([
+            PLAIN.digits(DIGITS, factor * row.value),
+            Value::Word(ranges(report, &row.windows, [row.from, row.to])),
+            Value::Word(own.to_owned()),
+        ]);
+    }
+    table
 }
 
 /// The saws, with the limit that is nearest, or missed most.

@@ -42,6 +42,8 @@ pub struct SizeReport {
     pub windows: Vec<SizedWindow>,
     /// A value in the range that is nearest to the value of the scene; null if there is no range.
     pub answer: Option<SizeAnswer>,
+    /// The ranges for values of another number; null if none was asked for.
+    pub each: Option<SizedEach>,
     /// Relative tolerance with which the ranges were searched; their ends and the answer have that of the scene.
     pub searched_tolerance: f64,
     /// Number of saws that were checked.
@@ -74,6 +76,36 @@ pub struct SizedWindow {
     pub below: Option<String>,
     /// The limit that a larger value does not keep, with what was found there; null at the last value that was tried.
     pub above: Option<String>,
+}
+
+/// The ranges for values of another number.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct SizedEach {
+    /// JSON paths of the other number in the scene; several if it is that of several guides.
+    pub paths: Vec<String>,
+    /// Name of the other number.
+    pub name: String,
+    /// Unit of the other number; empty if it has none.
+    pub unit: String,
+    /// Every value, ascending, with that of the scene.
+    pub rows: Vec<SizedFor>,
+}
+
+/// The ranges for a value of another number.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct SizedFor {
+    /// Value of the other number.
+    pub value: f64,
+    /// Whether the scene has it.
+    pub is_of_scene: bool,
+    /// First value of the sized number that was tried.
+    pub from: f64,
+    /// Last value of the sized number that was tried.
+    pub to: f64,
+    /// Ranges of the sized number in which the saw keeps all limits.
+    pub windows: Vec<SizedWindow>,
 }
 
 /// A value with which the saw keeps its limits, checked at the accuracy of the scene.

@@ -1,9 +1,10 @@
 //! A saw with another value of the number, and its distance from its limits.
 
-use crate::analyses::check::{CheckError, CheckReport, Limits, check};
+use crate::analyses::check::{CheckError, CheckReport, Limits, check, of_analysis};
 use crate::analyses::verdict::{Answer, Criterion};
-use crate::model::scene::{Freed, Parameter, Scene, SceneError, SweepFile};
+use crate::model::scene::{Freed, Parameter, Scene, SceneError, SweepFile, rad_per_s, rpm};
 use crate::modes::Cancellation;
+use crate::stability::Analysis;
 
 use super::SizeError;
 
@@ -23,6 +24,8 @@ pub struct Question<'a> {
     pub freed: &'a [Freed],
     /// Relative tolerance of the critical speeds; that of the scene if it is absent.
     pub tolerance: Option<f64>,
+    /// Analysis of the saw over all values, where they are operating speeds; otherwise every value is another saw.
+    pub swept: Option<&'a Analysis>,
     /// Whether bands are searched over the whole sweep, and not only as far as the limits require.
     pub is_whole: bool,
 }
@@ -48,6 +51,9 @@ impl Question<'_> {
         if self.is_whole {
             return check(scene, &limits);
         }
+        if let Some(analysis) = self.swept {
+            return of_analysis(analysis, scene, &limits);
+        }
         // A check goes on to the speeds that its limits require.
         let short = scene.edited(|file| {
             file.tolerance = self.tolerance.or(file.tolerance);
@@ -57,6 +63,26 @@ impl Question<'_> {
             });
         });
         check(&short?, &limits)
+    }
+
+    /// The analysis of the saw from rest to an operating speed, and as far as its other limits require.
+    ///
+    /// # Errors
+    /// [`CheckError`] if the saw cannot be analysed that far.
+    pub fn analysed_to(&self, to_rpm: f64) -> Result<Analysis, CheckError> {
+        let least = Limits {
+            limits: self.scene.limits(),
+            ..Limits::at(0.0)
+        };
+        let end = least.reach().end_rad_per_s.max(rad_per_s(to_rpm));
+        let swept = self.scene.edited(|file| {
+            file.tolerance = self.tolerance.or(file.tolerance);
+            file.sweep = Some(SweepFile {
+                from_rpm: 0.0,
+                to_rpm: rpm(end),
+            });
+        });
+        Ok(Analysis::new(&swept?)?)
     }
 
     /// The scene with a value of the number.
@@ -114,9 +140,6 @@ pub fn margin(report: &CheckReport, criterion: &Criterion) -> Option<f64> {
             let limit = report.limits.max_deviation_m?;
             Some(limit / found - 1.0)
         }
-        "margin" | "min_critical" | "min_flutter" | "rim_speed" => {
-            Some(criterion.found_rpm? / criterion.asked_rpm - 1.0)
-        }
-        _ => None,
+        _ => criterion.distance(),
     }
 }

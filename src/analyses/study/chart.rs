@@ -21,7 +21,7 @@ pub fn chart(report: &StudyReport) -> ChartData {
     let all = &report.all;
     let critical = Speed {
         name: "First critical speed",
-        statistics: &all.lowest_critical,
+        statistics: &all.first_critical,
         bars: (Hue::Forward, 0.45),
         limits: limits(
             report,
@@ -227,7 +227,7 @@ mod tests {
             let share = (index as f64 + 0.5) / study.count() as f64;
             let lowest = critical(share);
             let found = Found {
-                lowest_critical_rpm: lowest,
+                first_critical_rpm: lowest,
                 flutter_rpm: lowest.map(|rpm| 1.5 * rpm).filter(|rpm| *rpm < 2300.0),
                 first_merge_rpm: None,
                 kept: vec![true, true, share > 0.5],

@@ -3,6 +3,9 @@
 use std::io;
 use std::path::Path;
 
+use crate::analyses::check::Limits;
+use crate::model::scene::rpm;
+
 use super::order::Values;
 use super::plan::Study;
 use super::report::{
@@ -10,7 +13,7 @@ use super::report::{
     Passing, Quantile, SpeedStatistics,
 };
 use super::saw::{Outcome, Saw};
-use super::statistics::interval;
+use super::statistics::{interval, is_resolved};
 
 /// Largest number of bars of a histogram; more cannot be distinguished.
 const MOST_BARS: usize = 40;
@@ -23,7 +26,7 @@ pub(super) struct Counts<'a> {
     pub saws: usize,
     refused: usize,
     failed: usize,
-    lowest_critical: Values,
+    first_critical: Values,
     flutter: Values,
     passed: usize,
     kept: Vec<usize>,
@@ -43,7 +46,7 @@ impl<'a> Counts<'a> {
             saws: 0,
             refused: 0,
             failed: 0,
-            lowest_critical: Values::new(folder),
+            first_critical: Values::new(folder),
             flutter: Values::new(folder),
             passed: 0,
             kept: vec![0; study.criteria_of_nothing().len()],
@@ -85,7 +88,7 @@ impl<'a> Counts<'a> {
                 .is_some_and(|(limit, found)| found <= limit),
         );
         let speeds = [
-            (&mut self.lowest_critical, found.lowest_critical_rpm),
+            (&mut self.first_critical, found.first_critical_rpm),
             (&mut self.flutter, found.flutter_rpm),
         ];
         for (values, speed) in speeds {
@@ -107,7 +110,7 @@ impl<'a> Counts<'a> {
     /// The error of reading values that did not fit into memory.
     pub fn report(mut self) -> io::Result<Group> {
         let (analysed, shares) = (self.analysed(), &self.study.file().quantiles);
-        let passing = self.study.limits().map(|_| self.passing());
+        let passing = self.study.limits().map(|limits| self.passing(limits));
         let saws_within = self.limit_m().map(|_| self.within);
         let mut numbers = self
             .gap
@@ -130,7 +133,7 @@ impl<'a> Counts<'a> {
             saws: self.saws,
             refused: self.refused,
             failed: self.failed,
-            lowest_critical: speed(&mut self.lowest_critical, analysed, shares)?,
+            first_critical: speed(&mut self.first_critical, analysed, shares)?,
             flutter: speed(&mut self.flutter, analysed, shares)?,
             passing,
             gap,
@@ -143,7 +146,7 @@ impl<'a> Counts<'a> {
         asked.max_deviation_mm.map(|mm| 1e-3 * mm)
     }
 
-    fn passing(&self) -> Passing {
+    fn passing(&self, limits: &Limits) -> Passing {
         let (study, saws) = (self.study, self.saws);
         let confidence = study.file().confidence;
         // The saws of different points of a grid have the same deviations and are not independent, so that
@@ -151,6 +154,7 @@ impl<'a> Counts<'a> {
         let is_drawn = study.file().saws.is_some() && saws == study.drawn();
         let criteria = study.criteria_of_nothing().into_iter().zip(&self.kept);
         Passing {
+            operating_rpm: rpm(limits.operating_rad_per_s),
             passed: self.passed,
             probability: self.passed as f64 / saws.max(1) as f64,
             confidence,
@@ -167,9 +171,16 @@ impl<'a> Counts<'a> {
     }
 }
 
+/// The shares whose quantiles a sample of this size has.
+fn resolved(shares: &[f64], saws: usize) -> Vec<f64> {
+    let found = shares.iter().filter(|share| is_resolved(**share, saws));
+    found.copied().collect()
+}
+
 fn number(values: &mut Values, analysed: usize, shares: &[f64]) -> io::Result<NumberStatistics> {
     let unknown = analysed - values.count();
     let median = values.quantiles(unknown, &[0.5])?;
+    let shares = &resolved(shares, analysed);
     let found = values.quantiles(unknown, shares)?;
     let quantiles = shares.iter().zip(found);
     Ok(NumberStatistics {
@@ -184,6 +195,7 @@ fn number(values: &mut Values, analysed: usize, shares: &[f64]) -> io::Result<Nu
 fn speed(values: &mut Values, analysed: usize, shares: &[f64]) -> io::Result<SpeedStatistics> {
     let beyond = analysed - values.count();
     let median = values.quantiles(beyond, &[0.5])?;
+    let shares = &resolved(shares, analysed);
     let found = values.quantiles(beyond, shares)?;
     let quantiles = shares.iter().zip(found);
     Ok(SpeedStatistics {

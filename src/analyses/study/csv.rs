@@ -49,7 +49,7 @@ pub(super) fn columns(study: &Study) -> Vec<String> {
         .map(|criterion| format!("keeps_{}", criterion.key));
     let before = [
         "status",
-        "lowest_critical_rpm",
+        "first_critical_rpm",
         "flutter_rpm",
         "first_merge_rpm",
         "passed",
@@ -80,7 +80,7 @@ pub(super) fn record(study: &Study, saw: &Saw) -> Vec<String> {
     let number = |value: Option<f64>| value.map_or(String::new(), |v| v.to_string());
     let text = |value: Option<String>| value.unwrap_or_default();
     cells.push(saw.outcome.status().to_owned());
-    cells.push(number(found.and_then(|f| f.lowest_critical_rpm)));
+    cells.push(number(found.and_then(|f| f.first_critical_rpm)));
     cells.push(number(found.and_then(|f| f.flutter_rpm)));
     cells.push(number(found.and_then(|f| f.first_merge_rpm)));
     cells.push(text(found.and_then(Found::passed).map(|p| p.to_string())));
@@ -160,7 +160,7 @@ fn found(study: &Study, cells: &[&str]) -> Option<Found> {
         band.estimated_relative_error = Some(estimated_relative_error);
     }
     Some(Found {
-        lowest_critical_rpm: number(critical)?,
+        first_critical_rpm: number(critical)?,
         flutter_rpm: number(flutter)?,
         first_merge_rpm: number(merge)?,
         kept,

@@ -17,7 +17,7 @@
 //!          "distribution": { "kind": "tolerance", "plus_minus": 5e-5 } }] }"#,
 //! )?;
 //! let report = study(scene, file, &|_, _| ())?;
-//! let median = report.all.lowest_critical.quantiles[3].rpm.unwrap();
+//! let median = report.all.first_critical.quantiles[3].rpm.unwrap();
 //! assert!((median / 1476.6 - 1.0).abs() < 0.01, "{median}");
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```

@@ -27,6 +27,14 @@ pub fn outline(report: &StudyReport) -> Outline {
         text.reason(entry.to_string());
     }
     text.remarks("Unusual number", &report.unusual_numbers);
+    if let Some(passing) = &report.all.passing {
+        text.headline(format!(
+            "At {} rpm, {} of {} saws can run",
+            shown_to(6, passing.operating_rpm),
+            passing.passed,
+            report.all.saws
+        ));
+    }
     quantiles(&mut text, report);
     if let (Some(gap), Some(asked)) = (&report.all.gap, &report.study.gap)
         && let (Some(within), Some(limit)) = (gap.saws_within, asked.max_deviation_mm)
@@ -64,7 +72,7 @@ fn force_n(report: &StudyReport) -> f64 {
 fn quantiles(text: &mut Outline, report: &StudyReport) {
     let all = &report.all;
     let heads = all
-        .lowest_critical
+        .first_critical
         .quantiles
         .iter()
         .take(QUANTILES)
@@ -76,7 +84,7 @@ fn quantiles(text: &mut Outline, report: &StudyReport) {
         let cells = quantiles.map(|quantile| SPEED.fixed(1, quantile.rpm).or("beyond"));
         table.row(std::iter::once(name.into()).chain(cells));
     };
-    speeds("lowest critical [rpm]", &all.lowest_critical);
+    speeds("first critical [rpm]", &all.first_critical);
     speeds("flutter speed [rpm]", &all.flutter);
     for (name, statistics, measure) in all.gap.iter().flat_map(numbers) {
         let quantiles = statistics.quantiles.iter().take(QUANTILES);
@@ -84,6 +92,13 @@ fn quantiles(text: &mut Outline, report: &StudyReport) {
         table.row(std::iter::once(name.into()).chain(cells));
     }
     text.table(table);
+    let left_out = report.study.quantiles.len() - all.first_critical.quantiles.len();
+    if left_out > 0 {
+        text.reason(format!(
+            "{left_out} shares are finer than one of {} saws and are left out",
+            all.saws
+        ));
+    }
     if all.flutter.beyond > 0 {
         text.sentence(format!(
             "{} not flutter up to {:.0} rpm",
@@ -141,7 +156,11 @@ fn fastest(reliability: &Reliability) -> Table {
     ];
     let rows = reliability.fastest.iter().map(|fastest| {
         [
-            format!("{} %", shown(100.0 * fastest.share)).into(),
+            if fastest.share == 1.0 {
+                "all".into()
+            } else {
+                format!("{} %", shown(100.0 * fastest.share)).into()
+            },
             SPEED.fixed(1, fastest.rpm),
         ]
     });
@@ -165,7 +184,7 @@ fn groups(report: &StudyReport) -> Table {
         let passing = group.passing.as_ref();
         let pass: Value = PERCENT.fixed(1, passing.map(|p| p.probability));
         [
-            median(&group.lowest_critical),
+            median(&group.first_critical),
             median(&group.flutter),
             pass,
             place.join(", ").into(),
@@ -180,7 +199,7 @@ fn groups(report: &StudyReport) -> Table {
 /// Adds the saws with the first critical speed and with the lowest flutter speed.
 fn worst(text: &mut Outline, report: &StudyReport) {
     let speeds = [
-        ("first critical", &report.worst_lowest_critical),
+        ("first critical", &report.worst_first_critical),
         ("flutter", &report.worst_flutter),
     ];
     for (name, saws) in speeds {
@@ -208,8 +227,9 @@ pub(crate) fn accuracy_of_saws(text: &mut Outline, largest_error: f64, wrong: us
         shown_to(2, 100.0 * largest_error)
     ));
     if wrong > 0 {
+        let saws = if wrong == 1 { "saw" } else { "saws" };
         text.sentence(format!(
-            "The Krein index does not match in {wrong} saws{which}"
+            "{wrong} {saws} could not be verified (Krein index){which}; repeat with --accuracy design or reference"
         ));
     }
 }

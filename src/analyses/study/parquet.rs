@@ -87,7 +87,7 @@ fn values(study: &Study, saws: &[Saw]) -> Vec<Column> {
     columns.extend((0..study.varying.len()).map(|k| numbers(&|saw| Some(saw.values[k]))));
     columns.extend([
         texts(|saw| Some(saw.outcome.status().to_owned())),
-        speeds(|found| found.lowest_critical_rpm),
+        speeds(|found| found.first_critical_rpm),
         speeds(|found| found.flutter_rpm),
         speeds(|found| found.first_merge_rpm),
         answers(&Found::passed),

@@ -41,7 +41,7 @@ pub struct StudyReport {
     pub reliability: Option<Reliability>,
     /// The saws with the lowest first critical speed, ascending.
     #[serde(default)]
-    pub worst_lowest_critical: Vec<WorstSaw>,
+    pub worst_first_critical: Vec<WorstSaw>,
     /// The saws with the lowest flutter speed, ascending.
     #[serde(default)]
     pub worst_flutter: Vec<WorstSaw>,
@@ -59,8 +59,8 @@ pub struct Reliability {
     /// Largest ratio of the operating speed to the first critical speed: that of the limits, or the usual
     /// one.
     pub margin: f64,
-    /// Highest operating speeds for given shares of the saws; null if it exceeds the speeds of the study, or
-    /// fewer saws were analysed.
+    /// Highest operating speeds for given shares of the saws, as fine as the number of saws allows; null if it exceeds the speeds of
+    /// the study, or fewer saws were analysed.
     pub fastest: Vec<Quantile>,
     /// Shares of the saws that can run at evenly spaced speeds.
     pub curve: Vec<ReliabilityPoint>,
@@ -101,7 +101,7 @@ pub struct Group {
     /// Number of saws that could not be analysed.
     pub failed: usize,
     /// First critical speed of the analysed saws.
-    pub lowest_critical: SpeedStatistics,
+    pub first_critical: SpeedStatistics,
     /// Flutter speed of the analysed saws.
     pub flutter: SpeedStatistics,
     /// Share of saws that keep the limits, if the study has any.
@@ -135,7 +135,7 @@ pub struct NumberStatistics {
     pub saws: usize,
     /// Median; null if it is not known.
     pub median: Option<f64>,
-    /// Numbers below which given shares of the saws lie.
+    /// Numbers below which given shares of the saws lie, as fine as the number of saws allows.
     pub quantiles: Vec<NumberQuantile>,
 }
 
@@ -171,7 +171,7 @@ pub struct SpeedStatistics {
     pub beyond: usize,
     /// Median; null if it exceeds the speeds of the study.
     pub median_rpm: Option<f64>,
-    /// Speeds below which given shares of the saws lie.
+    /// Speeds below which given shares of the saws lie, as fine as the number of saws allows.
     pub quantiles: Vec<Quantile>,
     /// Histogram; null without saws.
     pub histogram: Option<Histogram>,
@@ -203,6 +203,8 @@ pub struct Histogram {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Passing {
+    /// Speed at which the saws are judged.
+    pub operating_rpm: f64,
     /// Number of saws that keep every limit.
     pub passed: usize,
     /// Share of these saws among all saws of the group.

@@ -39,7 +39,7 @@ pub enum Outcome {
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
 pub struct Found {
     /// First critical speed; `None` if the blade has none.
-    pub lowest_critical_rpm: Option<f64>,
+    pub first_critical_rpm: Option<f64>,
     /// Flutter speed; `None` if it exceeds the speeds of the study.
     pub flutter_rpm: Option<f64>,
     /// Onset of the first flutter band, including weak ones.
@@ -97,7 +97,7 @@ impl Found {
     pub(crate) fn critical_rad_per_s(&self) -> Vec<f64> {
         let listed = self.critical_rpm.iter().copied();
         let beyond = self
-            .lowest_critical_rpm
+            .first_critical_rpm
             .filter(|_| self.critical_rpm.is_empty());
         listed.chain(beyond).map(rad_per_s).collect()
     }
@@ -254,7 +254,7 @@ impl Study {
         Ok(Found {
             critical_rpm,
             bands,
-            lowest_critical_rpm: onsets.lowest_critical_rad_per_s.map(rpm),
+            first_critical_rpm: onsets.first_critical_rad_per_s.map(rpm),
             flutter_rpm: onsets.flutter_speed_rad_per_s.map(rpm),
             first_merge_rpm: onsets.first_merge_rad_per_s.map(rpm),
             kept: criteria.iter().flatten().map(Criterion::is_kept).collect(),

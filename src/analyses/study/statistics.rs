@@ -10,6 +10,13 @@ pub struct Rank {
     part: f64,
 }
 
+/// Whether a sample of this size has a quantile of this share: at least one saw lies beyond it, on either side. The smallest and
+/// the largest value are those of the sample.
+pub fn is_resolved(share: f64, total: usize) -> bool {
+    let finest = share.min(1.0 - share);
+    finest == 0.0 || finest * total as f64 >= 1.0 - 1e-9
+}
+
 /// The rank of the quantile of `share` among `total` values (type 7
 /// of Hyndman and Fan, The American Statistician 50 (1996), 361). `None` if there are no values.
 pub fn rank(total: usize, share: f64) -> Option<Rank> {
@@ -72,6 +79,14 @@ mod tests {
         assert_eq!(quantile(&sorted, 2, 0.6), None);
         assert_eq!(quantile(&[], 3, 0.0), None);
         assert_eq!(quantile(&[], 0, 0.5), None);
+    }
+
+    #[test]
+    fn a_quantile_has_at_least_one_saw_on_either_side() {
+        let found = [0.0, 0.01, 0.05, 0.5, 0.95, 0.999, 1.0].map(|share| is_resolved(share, 20));
+        assert_eq!(found, [true, false, true, true, true, false, true]);
+        assert!(is_resolved(0.999, 1000) && !is_resolved(0.999, 999));
+        assert!(!is_resolved(0.5, 1) && is_resolved(0.5, 2));
     }
 
     /// Reference: the closed form (α/2)^(1/n) at the ends, and the definition of Clopper and Pearson, a

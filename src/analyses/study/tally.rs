@@ -13,6 +13,7 @@ use super::report::{
 };
 use super::rows::Rows;
 use super::saw::{Found, Saw};
+use super::statistics::is_resolved;
 use super::table::Table;
 use crate::model::scene::rpm;
 
@@ -24,8 +25,8 @@ const WORST: usize = 10;
 const MAX_GROUPS: usize = 10_000;
 /// Number of points of the curve of reliability.
 const CURVE: usize = 61;
-/// Shares of saws for which the report gives the highest operating speed.
-const RELIABLE: [f64; 5] = [0.999, 0.99, 0.95, 0.9, 0.5];
+/// Shares of saws for which the report gives the highest operating speed, if the saws are enough.
+const RELIABLE: [f64; 6] = [1.0, 0.999, 0.99, 0.95, 0.9, 0.5];
 
 /// Statistics of the saws added so far.
 pub(super) struct Tally<'a> {
@@ -36,7 +37,7 @@ pub(super) struct Tally<'a> {
     groups: Vec<Group>,
     /// Highest operating speed of each saw, unless it exceeds the speeds of the study.
     allowed: Values,
-    lowest_critical: Lowest,
+    first_critical: Lowest,
     flutter: Lowest,
     largest_error: f64,
     with_violations: usize,
@@ -53,7 +54,7 @@ impl<'a> Tally<'a> {
             group: None,
             groups: Vec::new(),
             allowed: Values::new(folder),
-            lowest_critical: Lowest::default(),
+            first_critical: Lowest::default(),
             flutter: Lowest::default(),
             largest_error: 0.0,
             with_violations: 0,
@@ -80,7 +81,7 @@ impl<'a> Tally<'a> {
     fn add_found(&mut self, saw: &Saw, found: &Found) -> io::Result<()> {
         self.largest_error = self.largest_error.max(found.estimated_relative_error);
         self.with_violations += usize::from(found.krein_violations > 0);
-        self.lowest_critical.add(saw, found.lowest_critical_rpm);
+        self.first_critical.add(saw, found.first_critical_rpm);
         self.flutter.add(saw, found.flutter_rpm);
         match highest_operating_rpm(found, margin(self.study)) {
             Some(rpm) => self.allowed.push(rpm),
@@ -130,7 +131,7 @@ impl<'a> Tally<'a> {
             groups: self.groups,
             not_analysed: self.not_analysed,
             reliability,
-            worst_lowest_critical: self.lowest_critical.0,
+            worst_first_critical: self.first_critical.0,
             worst_flutter: self.flutter.0,
             processors: match processors.len() {
                 0 | 1 => Vec::new(),
@@ -179,6 +180,9 @@ impl<'a> Tally<'a> {
             .collect();
         let mut fastest = Vec::new();
         for share in RELIABLE {
+            if !is_resolved(share, saws) {
+                continue;
+            }
             // `out` is the number of saws that may fail. The margin is needed because the computed
             // value of 1000 × (1 − 0.9) is slightly below 100.
             let out = (saws as f64 * (1.0 - share) + 1e-6).floor() as usize;
@@ -207,7 +211,7 @@ fn margin(study: &Study) -> f64 {
 /// Highest speed at which a saw keeps its margin and does not flutter; `None` if it exceeds the speeds of the
 /// study.
 fn highest_operating_rpm(found: &Found, margin: f64) -> Option<f64> {
-    let critical = found.lowest_critical_rpm.map(|rpm| margin * rpm);
+    let critical = found.first_critical_rpm.map(|rpm| margin * rpm);
     match (critical, found.flutter_rpm) {
         (Some(critical), Some(flutter)) => Some(critical.min(flutter)),
         (one, other) => one.or(other),

@@ -45,6 +45,17 @@ impl Criterion {
         self.answer == Answer::Yes
     }
 
+    /// Distance of the found speed from the asked one relative to it, negative if the limit is not kept; `None` for a limit of
+    /// another kind, and where the found speed exceeds the sweep.
+    pub(crate) fn distance(&self) -> Option<f64> {
+        match self.key.as_str() {
+            MARGIN | "min_critical" | "min_flutter" | "rim_speed" => {
+                Some(self.found_rpm? / self.asked_rpm - 1.0)
+            }
+            _ => None,
+        }
+    }
+
     /// The criterion with the answer that follows from whether it is kept.
     pub(crate) fn kept_if(self, is_kept: bool) -> Self {
         let broken = match self.source {

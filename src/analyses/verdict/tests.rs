@@ -245,6 +245,26 @@ fn by_floquet(growth_per_s: f64, error_per_s: f64) -> Saw {
     }
 }
 
+/// A slow growth with a large error beside a certain one of none leaves the answer open, and one that is certain decides.
+#[test]
+fn the_errors_of_all_multipliers_count() {
+    let with = |growth: f64, error: f64| {
+        let mut saw = by_floquet(0.0, 1e-3);
+        let at = &mut saw.floquet.as_mut().unwrap().at[0];
+        (at.growth_per_s, at.error_per_s) = (growth, error);
+        saw.at(1300.0)
+    };
+    assert_eq!(said(&with(-0.1, 0.01)), (Some(Answer::Yes), "none"));
+    assert_eq!(
+        said(&with(-0.1, 0.5)),
+        (Some(Answer::AtRisk), "not_covered")
+    );
+    let mut saw = by_floquet(0.5, 0.4);
+    let at = &mut saw.floquet.as_mut().unwrap().at[0];
+    (at.growth_per_s, at.error_per_s) = (0.4, 0.01);
+    assert_eq!(said(&saw.at(1300.0)), (Some(Answer::No), "flutter"));
+}
+
 #[test]
 fn multipliers_decide_where_slots_pass_guides() {
     for (growth, error, expected) in [
@@ -252,7 +272,8 @@ fn multipliers_decide_where_slots_pass_guides() {
         (0.0, 0.1, (Answer::Yes, "none")),
         (0.1, 0.0, (Answer::AtRisk, "weak_flutter")),
         (0.2, 0.1, (Answer::AtRisk, "not_covered")),
-        (0.3, 0.1, (Answer::No, "flutter")),
+        (0.3, 0.1, (Answer::AtRisk, "not_covered")),
+        (0.4, 0.1, (Answer::No, "flutter")),
     ] {
         let saw = by_floquet(growth, error);
         let verdict = saw.at(1300.0);
@@ -266,7 +287,7 @@ fn multipliers_decide_where_slots_pass_guides() {
         assert_eq!(said(&other), (Some(Answer::AtRisk), "not_covered"));
         assert!(other.floquet.is_none());
     }
-    assert!(by_floquet(0.3, 0.1).at(1300.0).reason.starts_with(
-        "a vibration grows by 0.3 ± 0.1 1/s at 1300 rpm while slots pass the guides, by Floquet multipliers"
+    assert!(by_floquet(0.4, 0.1).at(1300.0).reason.starts_with(
+        "a vibration grows by 0.4 ± 0.1 1/s at 1300 rpm while slots pass the guides, by Floquet multipliers"
     ));
 }

@@ -23,11 +23,11 @@ struct Row {
     folder: String,
     /// Name of the scene; `None` if it could not be read.
     name: Option<String>,
-    lowest_critical_rpm: Option<f64>,
-    flutter_speed_rpm: Option<f64>,
+    first_critical_rpm: Option<f64>,
+    flutter_rpm: Option<f64>,
     operating_rpm: Option<f64>,
     /// Operating speed over first critical speed.
-    of_lowest_critical: Option<f64>,
+    of_first_critical: Option<f64>,
     /// Whether it can run at its operating speed.
     answer: Option<Answer>,
     /// Short name of what decides; `None` if the answer is yes.
@@ -105,10 +105,10 @@ impl Row {
         Row {
             folder,
             name,
-            lowest_critical_rpm: of.and_then(|r| r.critical_speeds.first()).map(|c| c.rpm),
-            flutter_speed_rpm: of.and_then(|r| r.flutter_speed_rpm),
+            first_critical_rpm: of.and_then(|r| r.first_critical_rpm),
+            flutter_rpm: of.and_then(|r| r.flutter_rpm),
             operating_rpm: operating.map(|o| o.rpm),
-            of_lowest_critical: operating.and_then(|o| o.of_lowest_critical),
+            of_first_critical: operating.and_then(|o| o.of_first_critical),
             answer: verdict.and_then(|verdict| verdict.answer),
             cause: verdict.and_then(|verdict| verdict.cause.clone()),
             reason: verdict.map(|verdict| verdict.reason.clone()),
@@ -149,10 +149,10 @@ fn table(rows: &[Row]) -> String {
             None => writeln!(
                 text,
                 "{folder:<23} {:>8} {:>9} {:>9} {:>6}  {}{}",
-                speed(row.lowest_critical_rpm),
-                speed(row.flutter_speed_rpm),
+                speed(row.first_critical_rpm),
+                speed(row.flutter_rpm),
                 speed(row.operating_rpm),
-                percent(row.of_lowest_critical),
+                percent(row.of_first_critical),
                 row.in_table.as_deref().unwrap_or("-"),
                 if row.warnings > 0 { " *" } else { "" }
             ),

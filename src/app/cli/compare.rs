@@ -20,7 +20,7 @@ Examples:
   sawflutter compare my-saw.json --variant blade.thickness_m=2.6mm \\
     --variant \"blade.thickness_m=2.6mm,guides[0].radius_m=250mm\"
   sawflutter compare a-out/report.json b-out/report.json # computed before
-  sawflutter compare a.json b.json --json | jq '.saws[].flutter_speed_rpm'
+  sawflutter compare a.json b.json --json | jq '.saws[].flutter_rpm'
 
 Scenes without a sweep are charted over the same speeds. The first saw is the
 one that the others are compared with.";

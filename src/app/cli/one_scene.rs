@@ -93,7 +93,7 @@ fn declared(argument: &'static Argument) -> Arg {
     let arg = match &argument.kind {
         ArgumentKind::Table => return arg.value_name("TABLE"),
         ArgumentKind::Flag => arg.action(ArgAction::SetTrue),
-        ArgumentKind::Speeds | ArgumentKind::Bounds => {
+        ArgumentKind::Speeds | ArgumentKind::Bounds | ArgumentKind::Values => {
             read(arg, argument).action(ArgAction::Append)
         }
         ArgumentKind::Word(words) => {
@@ -130,6 +130,7 @@ fn value_name(argument: &Argument) -> &'static str {
         (ArgumentKind::Count(_), _) => "COUNT",
         (ArgumentKind::Speeds, _) => "RPM",
         (ArgumentKind::Bounds, _) => "PATH[=FROM..TO]",
+        (ArgumentKind::Values, _) => "PATH=VALUE,VALUE",
         (_, "rpm") => "RPM",
         (_, "m") => "LENGTH",
         (_, "m/s") => "M/S",
@@ -172,7 +173,7 @@ fn value(matches: &ArgMatches, argument: &Argument) -> Option<Value> {
     let name = argument.name.as_str();
     match &argument.kind {
         ArgumentKind::Flag => matches.get_flag(name).then_some(Value::Bool(true)),
-        ArgumentKind::Speeds | ArgumentKind::Bounds => {
+        ArgumentKind::Speeds | ArgumentKind::Bounds | ArgumentKind::Values => {
             let lists = matches.get_many::<Value>(name)?;
             let entries = lists.filter_map(Value::as_array).flatten().cloned();
             Some(entries.collect())
@@ -189,7 +190,7 @@ pub fn run<C: OneScene>(given: &Given<C>) -> anyhow::Result<bool> {
     let scene = given.input.scene()?;
     let Entered {
         scene,
-        options,
+        mut options,
         assumed,
     } = entered::<C>(scene, with_table::<C>(given.options.clone())?).map_err(of_options::<C>)?;
     if let Some(said) = assumed {
@@ -198,6 +199,9 @@ pub fn run<C: OneScene>(given: &Given<C>) -> anyhow::Result<bool> {
     given.page.tried()?;
     let writes = C::WRITES || given.output.has_folder();
     let folder = writes.then(|| given.output.folder()).transpose()?;
+    if let Some(folder) = &folder {
+        options.keep_in(folder.path());
+    }
     let report = watched(|progress| {
         let show = |step: Step| {
             progress.show_best(step.best_rpm);

@@ -72,7 +72,7 @@ impl Ruler {
     fn new(report: &Report) -> Self {
         let operating = report.operating.as_ref();
         let margin = report.scene.limits.unwrap_or_default().margin();
-        let critical = operating.and_then(|at| Some((margin, at.lowest_critical_rpm?)));
+        let critical = report.first_critical_rpm.map(|rpm| (margin, rpm));
         Ruler {
             to_rpm: report.campbell.to_rpm,
             window_rpm: operating.and_then(|at| at.safe_window_rpm),
@@ -113,12 +113,11 @@ pub fn of_bands(
 fn facts(report: &Report) -> Vec<Fact> {
     let peaks = report.instabilities.iter().map(|b| b.peak_growth_per_s);
     let operating = report.operating.as_ref();
-    let in_sweep = report.critical_speeds.first().map(|critical| critical.rpm);
-    // The first critical speed may be above the sweep.
-    let first = operating.and_then(|at| at.lowest_critical_rpm).or(in_sweep);
-    let [first_critical, share] =
-        of_critical(first, operating.and_then(|at| at.of_lowest_critical));
-    let onsets = [report.flutter_speed_rpm, report.first_merge_rpm];
+    let [first_critical, share] = of_critical(
+        report.first_critical_rpm,
+        operating.and_then(|at| at.of_first_critical),
+    );
+    let onsets = [report.flutter_rpm, report.first_merge_rpm];
     let mut facts = vec![first_critical];
     facts.extend(of_bands(onsets, peaks));
     facts.push(share);

@@ -18,7 +18,7 @@ pub struct Influence {
 /// Returns the influences on the first critical speed and the flutter speed.
 pub fn influences(entries: &[Sensitivity], report: &Report) -> Vec<Influence> {
     let critical = report.critical_speeds.first().map(|critical| critical.rpm);
-    let flutter = report.flutter_speed_rpm;
+    let flutter = report.flutter_rpm;
     let changes: Vec<[Option<f64>; 2]> = entries
         .iter()
         .map(|entry| {

@@ -20,6 +20,9 @@ pub struct Freed {
 /// Path of a number of a scene, with bounds if they are not the usual ones.
 pub type NamedBounds = (String, Option<(f64, f64)>);
 
+/// Path of a number of a scene, with values.
+pub type NamedValues = (String, Vec<f64>);
+
 /// Largest number of freed numbers; a search over more does not find their values reliably.
 const MAX_FREED: usize = 12;
 /// From this ratio of the bounds on, the scale is logarithmic.

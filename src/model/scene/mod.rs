@@ -73,7 +73,7 @@ pub use excitation::{ExcitationFile, ExcitationLine};
 pub use file::{Accuracy, Measured, MeasuredRow, SceneFile, SweepFile};
 #[doc(hidden)]
 pub use free_number::spread;
-pub use free_number::{Freed, NamedBounds};
+pub use free_number::{Freed, NamedBounds, NamedValues};
 pub(crate) use free_number::{Parted, effective, is_logarithmic, scene_at};
 pub use friction::FrictionFile;
 pub(crate) use guide::{Guide, Lifting};

@@ -55,12 +55,12 @@ impl SceneFile {
         })
     }
 
-    /// Speed up to which a saw that has no instability counts as stable, in the unit of its lowest critical speed: infinite unless
+    /// Speed up to which a saw that has no instability counts as stable, in the unit of its first critical speed: infinite unless
     /// slots pass guides.
-    pub(crate) fn covered_to(&self, lowest_critical: Option<f64>) -> f64 {
+    pub(crate) fn covered_to(&self, first_critical: Option<f64>) -> f64 {
         match self.slot_passing() {
             None => f64::INFINITY,
-            Some(SlotPassing::Inside) => lowest_critical.unwrap_or(f64::INFINITY),
+            Some(SlotPassing::Inside) => first_critical.unwrap_or(f64::INFINITY),
             Some(SlotPassing::Beside) => 0.0,
         }
     }

@@ -1,5 +1,7 @@
 //! Rotation speeds and their ranges.
 
+use serde::{Deserialize, Serialize};
+
 use super::quantities::quantity;
 use super::quantity::TURNS_THE_OTHER_WAY;
 use super::rule::refuse;
@@ -7,7 +9,7 @@ use super::{RefusedValue, SceneError, rad_per_s, rpm};
 use crate::page::text::shown;
 
 /// Range of rotation speeds.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct SpeedRange {
     /// First speed.
     pub from_rad_per_s: f64,

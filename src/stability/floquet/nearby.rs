@@ -45,9 +45,21 @@ impl NearbyGrowth {
         [self.at[0], self.at[2]].map(|growth| growth.speed_rad_per_s)
     }
 
-    /// The fastest growth.
-    pub fn fastest(&self) -> FloquetGrowth {
-        let fastest = smallest(self.at, |growth| -growth.growth_per_s);
-        fastest.unwrap_or(self.at[1])
+    /// The growth that decides: one that reaches a threshold whatever its error, else one that may reach it, else the fastest.
+    pub fn deciding(&self, threshold_per_s: f64) -> FloquetGrowth {
+        let largest = |of: fn(&FloquetGrowth) -> f64| {
+            let found = smallest(self.at, |growth| -of(growth));
+            found.unwrap_or(self.at[1])
+        };
+        let lower = |growth: &FloquetGrowth| growth.growth_per_s - growth.error_per_s;
+        let upper = |growth: &FloquetGrowth| growth.growth_per_s + growth.error_per_s;
+        let [surest, widest] = [largest(lower), largest(upper)];
+        if lower(&surest) >= threshold_per_s {
+            surest
+        } else if upper(&widest) >= threshold_per_s {
+            widest
+        } else {
+            largest(|growth| growth.growth_per_s)
+        }
     }
 }

@@ -51,7 +51,7 @@ pub(super) fn charted<'a>(
     branches::check_room(model, &speeds.all)?;
     // A free blade has no bands to search for; only the Krein index is checked.
     let search = if model.plate.is_axisymmetric() {
-        from_lowest_critical(model, speeds.all.clone())
+        from_first_critical(model, speeds.all.clone())
     } else {
         speeds_of_search(model, range, SEARCH_SPEEDS)
     };
@@ -101,7 +101,7 @@ pub fn undamped_bands(
 
 /// Start speeds of the search for bands from the last one below the first critical speed on, see [`speeds_of_search`].
 pub(super) fn search_speeds(model: &SpectralModel, range: SpeedRange, count: usize) -> Vec<f64> {
-    from_lowest_critical(model, speeds_of_search(model, range, count))
+    from_first_critical(model, speeds_of_search(model, range, count))
 }
 
 /// Start speeds of a search: `count` even ones and both sides of every critical speed. The first
@@ -113,7 +113,7 @@ fn speeds_of_search(model: &SpectralModel, range: SpeedRange, count: usize) -> V
 }
 
 /// Ascending speeds from the last one below the first critical speed on.
-fn from_lowest_critical(model: &SpectralModel, mut speeds: Vec<f64>) -> Vec<f64> {
+fn from_first_critical(model: &SpectralModel, mut speeds: Vec<f64>) -> Vec<f64> {
     let critical: Vec<f64> = model.critical.iter().map(|c| c.speed_rad_per_s).collect();
     speeds.drain(..last_below(&critical, speeds.iter().copied()));
     speeds

@@ -60,7 +60,7 @@ fn verdict(report: &Report) -> String {
     let mut bands = report.instabilities.iter();
     let flutters = bands.any(|band| band.kind == InstabilityKind::Flutter);
     let last = report.campbell.to_rpm;
-    match report.flutter_speed_rpm {
+    match report.flutter_rpm {
         Some(rpm) => format!("flutter from {rpm:.0} rpm"),
         // The figure also shows flutter with growth rates below the threshold, so that the verdict must name
         // the threshold.

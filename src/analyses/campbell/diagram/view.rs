@@ -59,7 +59,7 @@ fn last_readable(report: &Report, from_rpm: f64) -> f64 {
     let Some(onset) = onsets.get(MOST_BANDS) else {
         return end;
     };
-    let marks = [report.scene.operating_rpm, report.flutter_speed_rpm]
+    let marks = [report.scene.operating_rpm, report.flutter_rpm]
         .into_iter()
         .flatten()
         .map(|rpm| BEYOND * rpm);

@@ -166,7 +166,7 @@ fn flutter(text: &mut Outline, report: &Report) {
         return;
     }
     let threshold = report.flutter_threshold_per_s;
-    text.sentence(match report.flutter_speed_rpm {
+    text.sentence(match report.flutter_rpm {
         Some(rpm) => {
             let is_its = |band: &&InstabilityBand| {
                 band.kind == InstabilityKind::Flutter
@@ -193,7 +193,7 @@ fn flutter(text: &mut Outline, report: &Report) {
     });
     let weak = report
         .first_merge_rpm
-        .filter(|first| Some(*first) != report.flutter_speed_rpm);
+        .filter(|first| Some(*first) != report.flutter_rpm);
     if let Some(rpm) = weak {
         text.sentence(format!(
             "Weak flutter (below {threshold} 1/s) from {rpm:.0} rpm"

@@ -19,7 +19,7 @@ pub fn checks(text: &mut Outline, report: &Report) {
         text.sentence(unproven(
             &certificate.unproven_counting_rpm,
             report.flutter_threshold_per_s,
-            report.flutter_speed_rpm,
+            report.flutter_rpm,
             operating.map(|operating| operating.rpm),
         ));
     }

@@ -27,7 +27,7 @@ pub fn in_cut(text: &mut Outline, report: &Report) {
     };
     speeds(
         "first critical speed [rpm]",
-        idling.critical_speeds_rpm.first().copied(),
+        idling.critical_rpm.first().copied(),
         report.critical_speeds.first().map(|critical| critical.rpm),
     );
     speeds(
@@ -37,8 +37,8 @@ pub fn in_cut(text: &mut Outline, report: &Report) {
     );
     speeds(
         "flutter speed [rpm]",
-        idling.flutter_speed_rpm,
-        report.flutter_speed_rpm,
+        idling.flutter_rpm,
+        report.flutter_rpm,
     );
     let growth = |bands: &[InstabilityBand]| {
         let all = bands.iter().map(|band| band.peak_growth_per_s);

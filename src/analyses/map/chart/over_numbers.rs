@@ -117,7 +117,8 @@ pub fn panel(report: &MapReport, y: &MapAxis) -> PanelData {
 fn line_of(quantity: Contoured, points: impl IntoIterator<Item = [f64; 2]>) -> Line {
     let (hue, dashed, name) = match quantity {
         Contoured::FlutterSpeed => (Hue::Flutter, false, "flutter speed [rpm]"),
-        Contoured::LowestCriticalSpeed => (Hue::Forward, true, "first critical speed [rpm]"),
+        Contoured::FirstCriticalSpeed => (Hue::Forward, true, "first critical speed [rpm]"),
+        Contoured::Limits => (Hue::Ink, false, "limits of speeds just kept"),
     };
     Line {
         dashed,
@@ -129,8 +130,12 @@ fn line_of(quantity: Contoured, points: impl IntoIterator<Item = [f64; 2]>) -> L
 fn line(contour: &Contour, x: &Along, y: &Along) -> Line {
     let points = contour.points.iter();
     let places = points.map(|[a, b]| [x.at(*a), y.at(*b)]);
+    let label = match contour.quantity {
+        Contoured::Limits => String::new(),
+        Contoured::FlutterSpeed | Contoured::FirstCriticalSpeed => contour.rpm.to_string(),
+    };
     Line {
-        label: contour.rpm.to_string(),
+        label,
         ..line_of(contour.quantity, places)
     }
 }
@@ -150,8 +155,14 @@ pub fn key(report: &MapReport) -> Vec<Item> {
             let class = Heat::class([&[], &[]], |_, _| false, state.colour(), state.name());
             Item::Heat(class)
         });
-    let contours = [Contoured::FlutterSpeed, Contoured::LowestCriticalSpeed]
-        .map(|quantity| Item::Line(line_of(quantity, [])));
+    let contours = [
+        Contoured::FlutterSpeed,
+        Contoured::FirstCriticalSpeed,
+        Contoured::Limits,
+    ]
+    .into_iter()
+    .filter(|quantity| report.contours.iter().any(|of| of.quantity == *quantity))
+    .map(|quantity| Item::Line(line_of(quantity, [])));
     let scene = Item::points_sample(SCENE_SIZE, Shape::Ring, Hue::Ink, "the scene");
     states.chain(contours).chain([scene]).collect()
 }

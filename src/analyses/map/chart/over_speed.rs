@@ -26,16 +26,21 @@ struct Speed {
     rpm_of: fn(&MappedSaw) -> Option<f64>,
 }
 
-const SPEEDS: [Speed; 2] = [
+const SPEEDS: [Speed; 3] = [
     Speed {
         hue: Hue::Forward,
         name: "first critical speed",
-        rpm_of: |saw| saw.lowest_critical_rpm,
+        rpm_of: |saw| saw.first_critical_rpm,
     },
     Speed {
         hue: Hue::Alarm,
         name: "flutter speed",
-        rpm_of: |saw| saw.flutter_speed_rpm,
+        rpm_of: |saw| saw.flutter_rpm,
+    },
+    Speed {
+        hue: Hue::Ink,
+        name: "allowed up to",
+        rpm_of: |saw| saw.verdict.as_ref()?.allowed_to_rpm,
     },
 ];
 
@@ -169,7 +174,7 @@ fn chains(report: &MapReport, along: &Along, look: Look) -> Vec<Columns> {
         own.retain(|area| area.look == look);
         let mut next: Vec<Columns> = Vec::new();
         if let Some((left, others)) = &before {
-            let scale = match [left, saw].map(|saw| saw.lowest_critical_rpm) {
+            let scale = match [left, saw].map(|saw| saw.first_critical_rpm) {
                 [Some(left), Some(right)] => right / left,
                 _ => 1.0,
             };

@@ -33,7 +33,7 @@ fn report(with_y: bool) -> MapReport {
             }
         };
         let found = Found {
-            lowest_critical_rpm: Some(0.7 * flutter),
+            first_critical_rpm: Some(0.7 * flutter),
             flutter_rpm: Some(flutter),
             critical_rpm: vec![0.7 * flutter, 0.9 * flutter],
             bands: vec![

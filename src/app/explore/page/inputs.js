@@ -81,6 +81,7 @@ class Axes {
 class Sized {
   #offered = "";
   #number = node("select");
+  #each = node("input", { id: "size-for", type: "text", placeholder: "the scene alone", title: "The ranges for values of another number too, like blade.thickness_m=2.0mm,2.2mm" });
   #bounds = node("input", { id: "size-bounds", type: "text", placeholder: "usual", title: "The usual bounds, or others like 1.8mm..3.2mm" });
 
   constructor(place, usual) {
@@ -95,12 +96,12 @@ class Sized {
     const chosen = this.#number.value;
     this.#number = menu("size-number", numbers);
     if (numbers.some(([path]) => path === chosen)) this.#number.value = chosen;
-    this.place.replaceChildren(field("Number", this.#number), field("Bounds", this.#bounds));
+    this.place.replaceChildren(field("Number", this.#number), field("Bounds", this.#bounds), field("For", this.#each));
   }
 
   get asked() {
     const bounds = this.#bounds.value.trim();
-    return { options: { vary: bounds === "" ? this.#number.value : `${this.#number.value}=${bounds}` } };
+    return { options: { vary: bounds === "" ? this.#number.value : `${this.#number.value}=${bounds}`, each: this.#each.value } };
   }
 }
 
