@@ -82,14 +82,7 @@ impl<'py> Options<'py> {
             let remedy = "write it like {\"blade.thickness_m\": [\"2 mm\", \"2.2 mm\"]}";
             return refused(name, &value, allowed, remedy);
         };
-        let items = by_path.items()?.into_iter();
-        items
-            .map(|item| {
-                let (path, values): (String, Bound<'_, PyAny>) = item.extract()?;
-                let found = values_at(&path, &values)?;
-                Ok((path, found))
-            })
-            .collect()
+        each_path(by_path, values_at)
     }
 
     /// Paths of numbers of the scene, with or without bounds.
@@ -112,15 +105,23 @@ impl<'py> Options<'py> {
             };
             return paths.map(|path| Ok((path?.extract()?, None))).collect();
         };
-        let items = by_path.items()?.into_iter();
-        items
-            .map(|item| {
-                let (path, bounds): (String, Bound<'_, PyAny>) = item.extract()?;
-                let found = bounds_at(&path, &bounds)?;
-                Ok((path, found))
-            })
-            .collect()
+        each_path(by_path, bounds_at)
     }
+}
+
+/// The paths of a mapping, each with what `read` makes of its value.
+fn each_path<T>(
+    by_path: &Bound<'_, PyMapping>,
+    read: impl Fn(&str, &Bound<'_, PyAny>) -> PyResult<T>,
+) -> PyResult<Vec<(String, T)>> {
+    let items = by_path.items()?.into_iter();
+    items
+        .map(|item| {
+            let (path, value): (String, Bound<'_, PyAny>) = item.extract()?;
+            let found = read(&path, &value)?;
+            Ok((path, found))
+        })
+        .collect()
 }
 
 /// The numbers of a list, or one number.

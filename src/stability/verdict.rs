@@ -99,7 +99,7 @@ pub struct Verdict {
     pub undecided: Option<Edge>,
     /// Index of the critical speed within 5 % of the speed; of several, the nearest.
     pub critical: Option<usize>,
-    /// The fastest growth by Floquet multipliers, where it decides.
+    /// The growth by Floquet multipliers that decides, if no band does.
     pub floquet: Option<FloquetGrowth>,
 }
 

@@ -18,14 +18,15 @@ use sawflutter::model::scene::{
 use sawflutter::stability::{Analysis, StabilityState};
 use serde::Deserialize;
 
+/// A wave of the blade with four slots.
 #[derive(Deserialize)]
-struct Row {
-    n: usize,
-    branch: String,
-    rest_hz: f64,
-    rpm1500_hz: f64,
-    rpm3000_hz: f64,
-    rpm4500_hz: f64,
+pub struct Row {
+    pub n: usize,
+    pub branch: String,
+    pub rest_hz: f64,
+    pub rpm1500_hz: f64,
+    pub rpm3000_hz: f64,
+    pub rpm4500_hz: f64,
     critical_rpm: Option<f64>,
     ccx_rest_hz: f64,
     ccx_critical_rpm: Option<f64>,
@@ -47,8 +48,8 @@ struct Stress {
     mean_st: f64,
 }
 
-/// A blade of 400 mm in a rigid collar of 100 mm.
-fn saw(slots: Option<(u32, f64)>) -> Scene {
+/// A blade of 400 mm in a rigid collar of 100 mm, with a number of slots of a depth in m.
+pub fn saw(slots: Option<(u32, f64)>) -> Scene {
     let saw = scene("collar-400mm").edited(|saw| {
         saw.blade.inner_diameter_m = 0.03;
         saw.mount = Mount::Collar {

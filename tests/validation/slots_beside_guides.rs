@@ -6,26 +6,19 @@
 
 use std::f64::consts::TAU;
 
-use crate::common::{Worst, reference_model, relative_error, scene, table};
+use crate::common::{Worst, reference_model, relative_error, table};
+use crate::slots::{self, Row};
+use sawflutter::analyses::check::{Limits, check};
+use sawflutter::analyses::door::CommandOptions;
+use sawflutter::analyses::size;
 use sawflutter::analyses::verdict::Answer;
 use sawflutter::model::plate::{Plate, Resolution, TurningBlade};
 use sawflutter::model::scene::{
-    Accuracy, DampingFile, GuideFile, InPlane, Mount, Scene, SceneFile, Slots, SlotsFile,
-    rad_per_s, rpm,
+    Accuracy, DampingFile, GuideFile, Scene, SceneFile, Slots, rad_per_s, rpm,
 };
 use sawflutter::modes::SpectralModel;
 use sawflutter::stability::{Analysis, FloquetGrowth, GuidedBlade, NotComputed, StabilityState};
 use serde::Deserialize;
-
-#[derive(Deserialize)]
-struct Row {
-    n: usize,
-    branch: String,
-    rest_hz: f64,
-    rpm1500_hz: f64,
-    rpm3000_hz: f64,
-    rpm4500_hz: f64,
-}
 
 #[derive(Deserialize)]
 struct Growth {
@@ -42,22 +35,10 @@ const FOUR: Slots = Slots {
     depth_m: 0.04,
 };
 
-/// A blade of 400 mm in a rigid collar of 100 mm, beside a guide.
+/// The blade beside a guide.
 fn saw(slots: Option<Slots>, guide: Option<GuideFile>) -> Scene {
-    let saw = scene("collar-400mm").edited(|saw| {
-        saw.blade.inner_diameter_m = 0.03;
-        saw.mount = Mount::Collar {
-            diameter_m: 0.1,
-            in_plane: InPlane::Fixed,
-            clamp_stiffness_n_m_per_rad_per_m: None,
-        };
-        saw.blade.slots = slots.map(|Slots { count, depth_m }| SlotsFile {
-            count,
-            depth_m,
-            width_m: None,
-            inclination_deg: None,
-            hole_diameter_m: None,
-        });
+    let blade = slots::saw(slots.map(|Slots { count, depth_m }| (count, depth_m)));
+    let saw = blade.edited(|saw| {
         saw.guides = guide.into_iter().collect();
         saw.accuracy = Accuracy::Draft;
         saw.operating_rpm = None;
@@ -311,4 +292,28 @@ fn the_multipliers_decide_at_the_operating_speed() {
     assert_eq!(state(2100.0), StabilityState::NotCovered);
     let text = serde_json::to_string(&report.warnings).unwrap();
     assert!(text.contains("Floquet multipliers"), "{text}");
+}
+
+/// Multipliers belong to one speed: sizing the operating speed finds the speeds at which a check of the saw at this speed is a yes, and
+/// not only those that the model covers without them, which are none for a guide beside the slots.
+#[test]
+#[cfg_attr(debug_assertions, ignore = "many eigenproblems: run it in release")]
+fn the_speeds_of_a_sized_saw_are_those_of_its_checks() {
+    let saw = saw(Some(FOUR), Some(guide(0.185, 0.02, 2e5, 20.0)));
+    let saw = saw.edited(|saw| {
+        saw.operating_rpm = Some(2000.0);
+        saw.damping = Some(loss_factor(1e-3));
+    });
+    let saw = saw.unwrap();
+    let options = size::Options {
+        vary: vec![("operating_rpm".to_owned(), Some((1900.0, 2100.0)))],
+        points: 3,
+        ..size::Options::default()
+    };
+    let sized = options.compute(&saw, &|_| ()).unwrap();
+    assert!(sized.kept.contains(&true), "{sized:?}");
+    for (rpm, kept) in sized.values.iter().zip(&sized.kept) {
+        let checked = check(&saw, &Limits::of(&saw, *rpm).unwrap()).unwrap();
+        assert_eq!(checked.verdict.answer == Some(Answer::Yes), *kept, "{rpm}");
+    }
 }

@@ -57,9 +57,9 @@ pub fn chart(report: &PlaceReport) -> Option<ChartData> {
     })
 }
 
-/// The worst case of the goal over the deflection at the cut; `None` for a single saw.
+/// The worst case of the goal over the deflection at the cut; `None` where nothing is traded.
 fn front(report: &PlaceReport, goal: &str) -> Option<PanelData> {
-    let [_, .., last] = report.front.as_slice() else {
+    let [_, .., last] = report.traded() else {
         return None;
     };
     let at = |saw: &FrontSaw| [1e3 * saw.deflection_m, saw.worst_goal_rpm];

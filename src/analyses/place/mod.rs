@@ -58,7 +58,6 @@ use crate::stability::{Analysis, ChosenBasis};
 use choice::{Choice, Weighed, basis_of_all, settle};
 pub use demands::{Demands, GapDemands, Options, Tolerances};
 pub use error::PlaceError;
-use map::Mapped;
 use memory::Memory;
 use neighbours::Neighbours;
 use outcome::{Computed, IDLE, Question, REFUSED};
@@ -139,10 +138,8 @@ pub fn place(
     let fragile_optimum = fragile_optimum(&fine, &best);
     let front = front::front(&fine, &traded, &best, question.resolution);
     let across_rpm = across::goals_rpm(&fine, &best.shares);
-    let map = (options.map > 1).then(|| {
-        let Mapped { map, .. } = map::through(&fine, &best.shares, options.map, progress);
-        map
-    });
+    let map =
+        (options.map > 1).then(|| map::through(&fine, &best.shares, options.map, progress).map);
     Cancellation::current().check()?;
     let tally = all.tally().and(coarse.tally()).and(fine.tally());
     let threshold_per_s = placed.flutter_threshold_per_s();

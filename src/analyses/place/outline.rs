@@ -6,9 +6,6 @@ use crate::analyses::verdict::Verdict;
 use crate::page::outline::{Column, Fact, LENGTH, Outline, SPEED, Table};
 use crate::page::text::{counted, shown_to};
 
-/// Relative difference of two goals that are the same for a designer.
-const SAME: f64 = 5e-3;
-
 pub fn outline(report: &PlaceReport) -> Outline {
     let mut text = Outline::of(
         &report.scene.name,
@@ -133,9 +130,7 @@ fn neighbours(text: &mut Outline, report: &PlaceReport, goal: &str) {
         ]
     });
     for parameter in &report.parameters {
-        if let Some([low, high]) = parameter.across_rpm
-            && high - low <= SAME * high
-        {
+        if let Some([low, high]) = parameter.without_influence() {
             text.sentence(format!(
                 "{} does not matter here: {:.0} ± {:.1} rpm from {} to {}",
                 parameter.path,
@@ -160,13 +155,9 @@ fn neighbours(text: &mut Outline, report: &PlaceReport, goal: &str) {
 
 /// Adds the saws that trade the goal against the deflection at the cut.
 fn front(text: &mut Outline, report: &PlaceReport, goal: &str) {
-    let [first, .., last] = report.front.as_slice() else {
+    let [first, .., last] = report.traded() else {
         return;
     };
-    let gained = (last.worst_goal_rpm - first.worst_goal_rpm).abs();
-    if gained <= SAME * last.worst_goal_rpm {
-        return;
-    }
     let force = report.force_n.map(short).unwrap_or_default();
     let rpm = report.scene.operating_rpm.map(short).unwrap_or_default();
     text.sentence(format!(

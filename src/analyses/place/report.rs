@@ -231,7 +231,31 @@ pub struct GoalMap {
     pub kept: Vec<Vec<bool>>,
 }
 
+/// Relative difference of two goals that are the same for a designer.
+const SAME: f64 = 5e-3;
+
+impl PlacedParameter {
+    /// The goals from bound to bound, if they are the same.
+    pub(super) fn without_influence(&self) -> Option<[f64; 2]> {
+        self.across_rpm
+            .filter(|[low, high]| high - low <= SAME * high)
+    }
+}
+
 impl PlaceReport {
+    /// The front, if the deflection at the cut is traded against the goal at all; otherwise empty.
+    pub(super) fn traded(&self) -> &[FrontSaw] {
+        match self.front.as_slice() {
+            all @ [first, .., last]
+                if (last.worst_goal_rpm - first.worst_goal_rpm).abs()
+                    > SAME * last.worst_goal_rpm =>
+            {
+                all
+            }
+            _ => &[],
+        }
+    }
+
     /// Remarks on the validity of the result; `why` is the reason for which one of the saws was not computed.
     pub(super) fn remarks(&self, why: Option<&str>) -> Vec<String> {
         let mut remarks = Vec::new();

@@ -71,7 +71,9 @@ pub fn size(
         ..exact
     };
     let to = first.to.max(of_scene);
-    let swept = |question: &Question<'_>| is_speed.then(|| question.analysed_to(to)).transpose();
+    // Multipliers of slots that pass guides belong to one speed, so that such a saw is checked at each.
+    let is_swept = is_speed && scene.file().slot_passing().is_none();
+    let swept = |question: &Question<'_>| is_swept.then(|| question.analysed_to(to)).transpose();
     let [of_exact, of_quick] = [swept(&exact)?, swept(&quick)?];
     let exact = Question {
         swept: of_exact.as_ref(),

@@ -31,7 +31,7 @@ Examples:
   sawflutter analyze --draw-to 2000                   # a part of the sweep
   sawflutter analyze --in-cut 2800                    # with forces of a cut
   sawflutter analyze --shapes --report page.html      # one page, to print
-  sawflutter analyze --json | jq .flutter_rpm   # for scripts";
+  sawflutter analyze --json | jq .flutter_rpm         # for scripts";
 
 #[derive(Args, Default)]
 pub struct Arguments {

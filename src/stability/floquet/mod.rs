@@ -5,7 +5,7 @@
 //! with its slots and its own stress of rotation, beside springs and dampers fixed in space; [`GuidedBlade::growth`] has the largest growth
 //! with an estimated error, [`NearbyGrowth`] that at an operating speed and 1 % beside it.
 //!
-//! References: V. A. Yakubovich & V. M. Starzhinskii, *Linear Differential Equations with Periodic Coefficients*, Wiley, 1975;
+//! References: V. A. Yakubovich & V. M. Starzhinskii, *Linear Differential Equations with Periodic Coefficients*, Wiley, 1975.
 
 mod error;
 mod growth;

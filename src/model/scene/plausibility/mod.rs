@@ -87,6 +87,7 @@ impl SceneFile {
     }
 
     /// [`Self::unusual_numbers`] without the one that is refused, which the error describes.
+    #[cfg(any(feature = "cli", feature = "page"))]
     pub(crate) fn unusual_numbers_beside(&self, refused: Option<&str>) -> Vec<String> {
         let begins = refused.map(|key| format!("{key} is "));
         let is_refused = |number: &String| {
