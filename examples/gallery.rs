@@ -5,7 +5,7 @@ use std::path::Path;
 use anyhow::Context;
 use sawflutter::analyses::check::{self, CheckReport, Limits};
 use sawflutter::analyses::commands::CommandReport;
-use sawflutter::analyses::compare::{LabelledSaw, Saw, compare};
+use sawflutter::analyses::compare::{NamedSaw, Saw, compare};
 use sawflutter::analyses::cut::{self, CutReport};
 use sawflutter::analyses::deflect::{Options, deflect};
 use sawflutter::analyses::fit::{self, FitReport, Measurement};
@@ -134,8 +134,8 @@ fn further(root: &Path) -> anyhow::Result<Vec<Figure>> {
     let saws = ["paper", "two-pads"]
         .map(|name| {
             let saw = Saw::Scene(Box::new(draft(name, &|_| ())?));
-            let label = name.to_owned();
-            Ok::<_, SceneError>(LabelledSaw { label, saw })
+            let name = name.to_owned();
+            Ok::<_, SceneError>(NamedSaw { name, saw })
         })
         .into_iter()
         .collect::<Result<_, _>>()?;

@@ -21,8 +21,8 @@ class CompareResults(Result, CompareReport):
 
     def _answer(self) -> str:
         speeds = ((saw.name, saw.flutter_rpm) for saw in self.saws)
-        found = ((label, "no flutter" if rpm is None else f"flutter from {rpm:.0f} rpm") for label, rpm in speeds)
-        return "; ".join(f"{label}: {said}" for label, said in found)
+        found = ((name, "no flutter" if rpm is None else f"flutter from {rpm:.0f} rpm") for name, rpm in speeds)
+        return "; ".join(f"{name}: {said}" for name, said in found)
 
     def _warnings(self) -> tuple[str, ...]:
         return tuple(f"{saw.name}: {text}" for saw in self.saws for text in saw.warnings)
@@ -30,7 +30,7 @@ class CompareResults(Result, CompareReport):
 
 def compare(
     *saws: Scene | CampbellResults,
-    labels: Iterable[str] | None = None,
+    names: Iterable[str] | None = None,
     progress: Progress = None,
 ) -> CompareResults:
     """Compares saws with the first of them, as the program's ``compare`` does.
@@ -40,7 +40,7 @@ def compare(
     *saws : Scene or CampbellResults
         Two or more scenes or charts. Scenes are charted first, those without a sweep over the same
         speeds.
-    labels : iterable of str, optional
+    names : iterable of str, optional
         Labels of the saws; by default their names, numbered.
     progress : bool or callable, optional
         As of :meth:`Scene.run_campbell`.
@@ -50,7 +50,7 @@ def compare(
     >>> import sawflutter as sf
     >>> saw = sf.Scene.paper().with_accuracy("draft")
     >>> thin = saw.replace({"blade.thickness_m": "2.6 mm"})
-    >>> found = sf.compare(saw, thin, labels=["saw", "thin"])
+    >>> found = sf.compare(saw, thin, names=["saw", "thin"])
     >>> [saw.name for saw in found.saws]
     ['saw', 'thin']
     >>> found.differences[0].path, found.differences[0].values
@@ -61,13 +61,13 @@ def compare(
     for place, saw in enumerate(saws):
         if not isinstance(saw, CampbellResults):
             _scene(f"saws[{place}]", saw)
-    if labels is None:
+    if names is None:
         named = [f"{number} {_name(saw)}" for number, saw in enumerate(saws, 1)]
     else:
-        named = [str(label) for label in labels]
+        named = [str(name) for name in names]
     if len(named) != len(saws):
-        raise ValueError(f"there are {len(saws)} saws, but {len(named)} labels")
-    texts = [(label, saw.to_json(), isinstance(saw, Result)) for label, saw in zip(named, saws)]
+        raise ValueError(f"there are {len(saws)} saws, but {len(named)} names")
+    texts = [(name, saw.to_json(), isinstance(saw, Result)) for name, saw in zip(named, saws)]
     with reporting(progress, "saws") as native:
         result = CompareResults._from_json(_native.compare(texts, progress=native))
     warned(result._warnings())

@@ -7,7 +7,7 @@ use pyo3::prelude::*;
 use pyo3::types::PyDict;
 use sawflutter::analyses::campbell::{ModeShape, Sensitivity};
 use sawflutter::analyses::commands::Call;
-use sawflutter::analyses::compare::{LabelledSaw, Saw, compare as compare_saws};
+use sawflutter::analyses::compare::{NamedSaw, Saw, compare as compare_saws};
 use sawflutter::analyses::door::{Argument, ArgumentKind, CommandError, Step};
 use sawflutter::analyses::tradeoff::tradeoff;
 use sawflutter::model::scene::{RefusedValue, Scene};
@@ -126,7 +126,7 @@ fn analyze(options: &Options<'_>) -> PyResult<Work> {
     }))
 }
 
-/// `compare.json` of saws by their labels. Each is the text of a scene or of a report.
+/// `compare.json` of saws by their names. Each is the text of a scene or of a report.
 #[pyfunction]
 #[pyo3(signature = (saws, progress=None))]
 pub fn compare(
@@ -137,13 +137,13 @@ pub fn compare(
     compute(py, progress, move |meter| {
         let saws = saws
             .into_iter()
-            .map(|(label, text, is_report)| {
+            .map(|(name, text, is_report)| {
                 let saw = if is_report {
                     Saw::Report(Box::new(serde_json::from_str(&text)?))
                 } else {
                     Saw::Scene(Box::new(arguments::scene(&text)?))
                 };
-                Ok(LabelledSaw { label, saw })
+                Ok(NamedSaw { name, saw })
             })
             .collect::<Result<_, Failure>>()?;
         let progress = |done, of| meter.show_of("saws", done, of);

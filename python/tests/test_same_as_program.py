@@ -125,7 +125,7 @@ def test_the_report_of_a_comparison(programs: list[str], scenes: Path, tmp_path:
     path = scenes / "paper.json"
     saw = sf.Scene.load(path).with_accuracy("draft")
     thin = saw.replace({"blade.thickness_m": "2.6 mm"})
-    found = sf.compare(saw, thin, labels=["paper", "thickness_m=2.6mm"])
+    found = sf.compare(saw, thin, names=["paper", "thickness_m=2.6mm"])
     same_report(programs, found, tmp_path, path, "--variant", "blade.thickness_m=2.6mm")
     assert sf.load(tmp_path / "0" / "compare.json") == found
     chart = saw.run_campbell()

@@ -6,9 +6,10 @@ use super::certificate::Certificate;
 use super::damped;
 use super::detail::Detail;
 use super::error::AnalysisError;
+use super::listed_band::ListedBand;
 use super::search_result::FoundBands;
 use super::undamped::{SEARCH_SPEEDS, undamped_bands};
-use super::verdict::flutter_onsets;
+use super::verdict::{Evidence, flutter_onsets};
 use crate::model::plate::Resolution;
 use crate::model::scene::{Scene, SpeedRange};
 use crate::model::system::GyroscopicSystem;
@@ -31,6 +32,8 @@ pub struct Onsets {
     pub certificate: Certificate,
     /// Whether nothing holds some rigid motion of the blade.
     pub has_free_motions: bool,
+    /// Size of the basis.
+    pub resolution: Resolution,
     /// Number of functions of the basis.
     pub functions: usize,
     /// Estimated relative error of the critical speeds within the range.
@@ -75,6 +78,7 @@ impl Onsets {
         let critical_rad_per_s: Vec<f64> = critical.iter().map(|c| c.speed_rad_per_s).collect();
         let first_critical = critical_rad_per_s.first().copied();
         let functions = saw.plate.degrees_of_freedom();
+        let resolution = saw.plate.resolution;
         let has_free_motions = GyroscopicSystem::has_free_motions(&saw.plate);
         // Without damping there are no bands to search for if the blade is free, because its waves are
         // uncoupled, or if the range ends below the first critical speed, because no wave is reflected
@@ -103,9 +107,33 @@ impl Onsets {
             instabilities: found.instabilities,
             certificate: found.certificate,
             has_free_motions,
+            resolution,
             functions,
             estimated_relative_error,
         })
+    }
+}
+
+impl Onsets {
+    /// What is known of the saw of a scene over the speeds of the search. The speeds of edges have at least the error of the critical
+    /// speeds.
+    pub(crate) fn evidence(&self, scene: &Scene, range_rad_per_s: SpeedRange) -> Evidence<'_> {
+        let threshold_per_s = scene.flutter_threshold_per_s();
+        let error = Some(self.estimated_relative_error);
+        let bands = self.instabilities.iter();
+        Evidence {
+            bands: bands
+                .map(|band| ListedBand::new(band, threshold_per_s, error))
+                .collect(),
+            has_failed: self.certificate.has_failed(),
+            critical_rad_per_s: &self.critical_rad_per_s,
+            threshold_per_s,
+            range_rad_per_s,
+            covered_to_rad_per_s: scene
+                .file()
+                .covered_to(self.critical_rad_per_s.first().copied()),
+            floquet: None,
+        }
     }
 }
 

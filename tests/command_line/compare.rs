@@ -52,8 +52,8 @@ fn a_comparison_has_the_results_of_each_saw_alone() {
     let names = names_in(&out(&folder));
     assert_eq!(names, ["compare.json", "compare.png", "compare.svg"]);
     let compared: CompareReport = written(&folder, "compare.json");
-    let labels: Vec<&str> = compared.saws.iter().map(|saw| saw.name.as_str()).collect();
-    assert_eq!(labels, ["a", "b", "thickness_m=2.6mm"]);
+    let names: Vec<&str> = compared.saws.iter().map(|saw| saw.name.as_str()).collect();
+    assert_eq!(names, ["a", "b", "thickness_m=2.6mm"]);
     let [difference] = &compared.differences[..] else {
         panic!("{:?}", compared.differences)
     };

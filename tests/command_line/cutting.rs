@@ -3,7 +3,7 @@
 //! Source: `--help`, docs/explanation/paper.md, and the paper's verdicts (section 3.2).
 
 use crate::common::says;
-use sawflutter::analyses::cut::{CutReport, CutVerdict};
+use sawflutter::analyses::cut::{CutReport, CutStability};
 use sawflutter::analyses::runup::RunUpReport;
 use sawflutter::model::scene::{Accuracy, RunUpFile, Scene, SceneFile};
 use tempfile::TempDir;
@@ -32,14 +32,14 @@ fn the_built_in_cut_is_stable_at_1800_and_unstable_at_2800() {
     );
     assert_in_80_columns(summary);
     let report: CutReport = written(&folder, "cut.json");
-    let verdicts: Vec<(f64, CutVerdict, Option<bool>)> = report
+    let verdicts: Vec<(f64, CutStability, Option<bool>)> = report
         .runs
         .iter()
-        .map(|run| (run.rpm, run.verdict, run.agree))
+        .map(|run| (run.rpm, run.stability, run.agree))
         .collect();
     let expected = [
-        (1800.0, CutVerdict::Stable, Some(true)),
-        (2800.0, CutVerdict::Unstable, Some(true)),
+        (1800.0, CutStability::Stable, Some(true)),
+        (2800.0, CutStability::Unstable, Some(true)),
     ];
     assert_eq!(verdicts, expected);
     // The certificate of each speed, in text and JSON, with as many growing modes as the verdict states.

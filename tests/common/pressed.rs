@@ -1,7 +1,7 @@
 //! Cuts under forces that no saw tolerates.
 #![allow(dead_code)]
 
-use sawflutter::analyses::cut::{CutCriterion, CutReport, CutVerdict};
+use sawflutter::analyses::cut::{CutCriterion, CutReport, CutStability};
 use sawflutter::model::scene::{CutSpeedFile, Scene, SceneFile};
 use tempfile::TempDir;
 
@@ -42,7 +42,7 @@ pub fn assert_unstable(tangential_n: f64) {
     assert_in_80_columns(&summary);
     let report: CutReport = serde_json::from_slice(&json).unwrap();
     let run = &report.runs[0];
-    assert_eq!(run.verdict, CutVerdict::Unstable, "{tangential_n}");
+    assert_eq!(run.stability, CutStability::Unstable, "{tangential_n}");
     let violent = |c: CutCriterion| c != CutCriterion::OutOfCut;
     for row in run.criteria.iter().filter(|row| violent(row.criterion)) {
         let apart = (row.growth_per_s / run.growth_per_s - 1.0).abs();

@@ -360,10 +360,10 @@ fn a_study_says_what_the_gap_does() {
             saw.side_force = Some(SideForceFile::of(2.0));
         })
         .unwrap();
-    let asked = |amplitude_mm: f64| {
+    let asked = |amplitude_m: f64| {
         let json = format!(
             r#"{{ "name": "gap", "to_rpm": 1700,
-                  "gap": {{ "max_deviation_mm": 0.25, "amplitude_mm": {amplitude_mm} }},
+                  "gap": {{ "max_deviation_m": 2.5e-4, "amplitude_m": {amplitude_m} }},
                   "parameters": [{{ "path": "guides[0].gap_m",
                                     "distribution": {{ "kind": "grid", "values": [2e-5, 4e-5, 8e-5] }} }}] }}"#
         );
@@ -373,7 +373,7 @@ fn a_study_says_what_the_gap_does() {
         let rows = saws.iter().map(|saw| saw.found().unwrap().gap.clone());
         (rows.collect::<Vec<_>>(), report)
     };
-    let (inside, report) = asked(0.02);
+    let (inside, report) = asked(2e-5);
     let gaps = gap(&saw, &Options::default());
     let map = gaps.unwrap().deviation;
     let of = |factor: f64| {
@@ -394,7 +394,7 @@ fn a_study_says_what_the_gap_does() {
         .first_critical_rad_per_s
         .unwrap());
     assert_close("inside the gap", inside[2][2].unwrap(), free_rpm, 2e-3);
-    let (beyond, _) = asked(20.0);
+    let (beyond, _) = asked(2e-2);
     let linear = rpm(Onsets::new(&saw).unwrap().first_critical_rad_per_s.unwrap());
     assert_close("beyond the gap", beyond[0][2].unwrap(), linear, 2e-3);
     let gap = report.all.gap.unwrap();

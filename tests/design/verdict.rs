@@ -4,9 +4,11 @@
 
 use sawflutter::analyses::campbell::Report;
 use sawflutter::analyses::check::{Limits, check};
-use sawflutter::analyses::compare::{LabelledSaw, Saw, compare};
+use sawflutter::analyses::compare::{NamedSaw, Saw, compare};
+use sawflutter::analyses::door::CommandOptions;
 use sawflutter::analyses::map::{Options, Range, map};
 use sawflutter::analyses::report;
+use sawflutter::analyses::size;
 use sawflutter::analyses::study::{Study, StudyFile};
 use sawflutter::analyses::verdict::{Answer, Verdict};
 use sawflutter::model::scene::{
@@ -150,11 +152,11 @@ fn twenty_saws_have_one_verdict_each() {
             );
         }
 
-        let labelled = LabelledSaw {
-            label: "saw".to_owned(),
+        let named = NamedSaw {
+            name: "saw".to_owned(),
             saw: Saw::Scene(Box::new(saw.clone())),
         };
-        let compared = compare(vec![labelled], &|_, _| ()).unwrap();
+        let compared = compare(vec![named], &|_, _| ()).unwrap();
         assert_same("compare", &saw, &compared.saws[0].verdict, expected);
 
         let density = saw.file().blade.material.density_kg_per_m3;
@@ -171,6 +173,24 @@ fn twenty_saws_have_one_verdict_each() {
         let own = mapped.saws[0].verdict.as_ref().unwrap();
         if mapped.to_rpm == report.campbell.to_rpm {
             assert_same("map", &saw, own, expected);
+        }
+
+        let sizing = size::Options {
+            vary: vec![(
+                "blade.material.density_kg_per_m3".to_owned(),
+                Some((density, 1.01 * density)),
+            )],
+            points: 3,
+            ..size::Options::default()
+        };
+        let sized = sizing.compute(&saw, &|_| ()).unwrap();
+        // It goes on to the operating speed.
+        if expected.cause.as_deref() != Some("outside_sweep") {
+            assert_eq!(sized.answers[0], expected.answer, "size {number}");
+        }
+        if expected.answer == Some(Answer::Yes) {
+            // The value of the scene is the answer.
+            assert_same("size", &saw, &sized.answer.unwrap().verdict, expected);
         }
 
         let text = format!(

@@ -21,6 +21,7 @@ mod options;
 mod outline;
 mod report;
 mod rim;
+mod searched;
 mod static_deflection;
 
 use crate::analyses::board_deviation::BoardDeviation;
@@ -34,7 +35,7 @@ use crate::stability::{Analysis, AnalysisError, check_stretch};
 pub(crate) use outline::outline;
 
 use criteria::lateral;
-pub(crate) use criteria::{judged, of_deflection, of_deviation};
+pub(crate) use criteria::{judged, of_deviation};
 pub use limits::Limits;
 use limits::Reach;
 pub use options::Options;
@@ -43,6 +44,7 @@ pub use report::{CheckReport, RimStiffness};
 pub(crate) use rim::{
     Judged, point_load_plate, rim_at_cut, rim_stiffness_at_rest_n_per_m, side_force_factor,
 };
+pub(crate) use searched::Searched;
 use static_deflection::StaticDeflection;
 
 /// Reason for which a check failed to run.
@@ -76,10 +78,7 @@ pub fn check(scene: &Scene, limits: &Limits) -> Result<CheckReport, CheckError> 
 }
 
 /// Compares a saw with limits by its analysis, which reaches as far as they require.
-///
-/// # Errors
-/// [`CheckError`] if the amplitude of flutter cannot be computed.
-pub(crate) fn of_analysis(
+fn of_analysis(
     analysis: &Analysis,
     scene: &Scene,
     limits: &Limits,
@@ -158,9 +157,8 @@ fn analysed(scene: &Scene, limits: &Limits) -> Result<Analysis, CheckError> {
         factor,
         end_rad_per_s: least_end_rad_per_s,
     } = limits.reach();
-    check_stretch(scene.blade(), least_end_rad_per_s).map_err(|error| error.due_to(key, factor))?;
     let to = |end_rad_per_s: f64| {
-        let range = SpeedRange::new(0.0, end_rad_per_s.max(least_end_rad_per_s));
+        let range = required_range(scene, limits, end_rad_per_s)?;
         let analysis = Analysis::new(&scene.swept(range)?);
         Ok(analysis.map_err(|error| {
             if end_rad_per_s < least_end_rad_per_s {
@@ -173,12 +171,28 @@ fn analysed(scene: &Scene, limits: &Limits) -> Result<Analysis, CheckError> {
     if let Some(SpeedRange { to_rad_per_s, .. }) = scene.sweep() {
         return to(to_rad_per_s);
     }
+    required_range(scene, limits, 0.0)?;
     let analysis = Analysis::new(scene)?;
     if analysis.range_rad_per_s.to_rad_per_s >= least_end_rad_per_s {
         Ok(analysis)
     } else {
         to(0.0)
     }
+}
+
+/// The speeds from rest to an end, or further if limits require it.
+///
+/// # Errors
+/// [`AnalysisError`] if the blade would yield at a speed that they require.
+pub(crate) fn required_range(
+    scene: &Scene,
+    limits: &Limits,
+    end_rad_per_s: f64,
+) -> Result<SpeedRange, AnalysisError> {
+    let reach = limits.reach();
+    check_stretch(scene.blade(), reach.end_rad_per_s)
+        .map_err(|error| error.due_to(reach.key, reach.factor))?;
+    Ok(SpeedRange::new(0.0, end_rad_per_s.max(reach.end_rad_per_s)))
 }
 
 /// The bands of the chart, with their amplitudes if those were computed.

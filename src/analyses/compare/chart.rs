@@ -210,7 +210,7 @@ fn key() -> Vec<Item> {
 mod tests {
     use super::*;
     use crate::analyses::campbell::sample;
-    use crate::analyses::compare::{LabelledSaw, Saw, compare};
+    use crate::analyses::compare::{NamedSaw, Saw, compare};
     use crate::page::figure::layout;
     use crate::page::figure::tidiness::texts;
 
@@ -218,8 +218,8 @@ mod tests {
     fn every_saw_has_its_row_and_nothing_is_cut_off() {
         let report = sample::empty_report("A saw");
         for count in [1, 2, 6, 9] {
-            let saw = |k: usize| LabelledSaw {
-                label: format!("saw {k}"),
+            let saw = |k: usize| NamedSaw {
+                name: format!("saw {k}"),
                 saw: Saw::Report(Box::new(report.clone())),
             };
             let compared = compare((1..=count).map(saw).collect(), &|_, _| ()).unwrap();

@@ -22,10 +22,10 @@ pub enum Saw {
     Report(Box<Report>),
 }
 
-/// A saw with the label that names it in the comparison.
-pub struct LabelledSaw {
-    /// The label.
-    pub label: String,
+/// A saw with its name in the comparison.
+pub struct NamedSaw {
+    /// The name.
+    pub name: String,
     /// The saw.
     pub saw: Saw,
 }
@@ -39,23 +39,20 @@ pub enum CompareError {
     /// No end of the sweep can be chosen for a scene.
     #[error(transparent)]
     Sweep(#[from] AnalysisError),
-    /// The saw with this label could not be analysed.
+    /// The saw with this name could not be analysed.
     #[error("{0}: {1}")]
     Saw(String, AnalysisError),
 }
 
-/// Compares labelled saws with the first of them. Every scene without a sweep gets the same one: from rest to the
+/// Compares named saws with the first of them. Every scene without a sweep gets the same one: from rest to the
 /// largest end that the program chooses for any of these scenes.
 ///
 /// # Errors
 /// [`CompareError`] if there is no saw, or one cannot be analysed.
-pub fn compare(
-    saws: Vec<LabelledSaw>,
-    progress: Progress<'_>,
-) -> Result<CompareReport, CompareError> {
+pub fn compare(saws: Vec<NamedSaw>, progress: Progress<'_>) -> Result<CompareReport, CompareError> {
     let ends = saws
         .iter()
-        .filter_map(|labelled| match &labelled.saw {
+        .filter_map(|named| match &named.saw {
             Saw::Scene(scene) if scene.sweep().is_none() => Some(end_of_sweep(scene)),
             _ => None,
         })
@@ -63,11 +60,11 @@ pub fn compare(
     let end_rad_per_s = ends.into_iter().fold(0.0, f64::max);
     let of = saws.len();
     let mut compared = Vec::new();
-    for (done, LabelledSaw { label, saw }) in saws.into_iter().enumerate() {
+    for (done, NamedSaw { name, saw }) in saws.into_iter().enumerate() {
         progress(done, of);
         compared.push(match saw {
-            Saw::Report(report) => of_report(label, *report),
-            Saw::Scene(scene) => of_scene(label, &scene, end_rad_per_s)?,
+            Saw::Report(report) => of_report(name, *report),
+            Saw::Scene(scene) => of_scene(name, &scene, end_rad_per_s)?,
         });
     }
     Ok(CompareReport {

@@ -1,7 +1,7 @@
 //! The deflection before, during and after the cut, one panel for each speed, as in the paper's Figures 16
 //! and 17.
 
-use super::{CutAtSpeed, CutCriterion, CutFinding, CutReport, CutVerdict};
+use super::{CutAtSpeed, CutCriterion, CutFinding, CutReport, CutStability};
 use crate::analyses::campbell::Verdict;
 use crate::analyses::scene_number::FigureUnit;
 use crate::page::figure::axis::two_digits;
@@ -92,8 +92,8 @@ fn panel(run: &CutAtSpeed, scale: &Scale) -> PanelData {
     let deflection = AxisData::new("deflection", scale.unit);
     PanelData {
         title: title(run),
-        colour: match run.verdict {
-            CutVerdict::Stable => Hue::Forward,
+        colour: match run.stability {
+            CutStability::Stable => Hue::Forward,
             _ => Hue::Alarm,
         },
         facts: facts(run),
@@ -108,9 +108,9 @@ fn panel(run: &CutAtSpeed, scale: &Scale) -> PanelData {
 
 /// The time of the cut, in the colour of the verdict.
 fn in_cut(run: &CutAtSpeed, reach: f64) -> Area {
-    let (hue, tint, name) = match run.verdict {
-        CutVerdict::Stable => (Hue::Forward, STABLE_TINT, "in the cut, stable"),
-        CutVerdict::Unstable | CutVerdict::LeavesModel | CutVerdict::AtCritical => {
+    let (hue, tint, name) = match run.stability {
+        CutStability::Stable => (Hue::Forward, STABLE_TINT, "in the cut, stable"),
+        CutStability::Unstable | CutStability::LeavesModel | CutStability::AtCritical => {
             (Hue::FlutterShade, 1.0, "in the cut, not stable")
         }
     };
@@ -171,8 +171,10 @@ fn envelope(run: &CutAtSpeed, scale: &Scale) -> Vec<Item> {
 }
 
 fn title(run: &CutAtSpeed) -> String {
-    match run.verdict {
-        CutVerdict::Unstable => format!("{} rpm: {} ({})", run.rpm, run.verdict, run.decided_by),
+    match run.stability {
+        CutStability::Unstable => {
+            format!("{} rpm: {} ({})", run.rpm, run.stability, run.decided_by)
+        }
         verdict => format!("{} rpm: {verdict}", run.rpm),
     }
 }

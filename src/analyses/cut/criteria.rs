@@ -7,13 +7,12 @@ use super::history::CutHistory;
 use super::record::Growth;
 use super::spline::SplineOrbit;
 use crate::analyses::campbell::Verdict;
-use crate::analyses::verdict::Answer;
 use crate::model::scene::Scene;
 
-/// Verdict of a cut.
+/// Whether a cut is stable.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
-pub enum CutVerdict {
+pub enum CutStability {
     /// No vibration grows as fast as the threshold, and the deflection stays within the model.
     Stable,
     /// The same, but the speed is within 5 % of a critical speed of the saw, in the cut or out of it.
@@ -151,43 +150,24 @@ impl Verdict {
     }
 }
 
-impl CutVerdict {
-    /// Whether the saw can run in this cut, in which the rim deflects this far, and its speed keeps the limit of its ratio to the first
-    /// critical speed or not.
-    pub(super) fn answer(
-        self,
-        scene: &Scene,
-        largest_deflection_m: Option<f64>,
-        keeps_margin: bool,
-    ) -> Answer {
-        let thickness_m = scene.blade().thickness_range_m()[0];
-        let is_wide = largest_deflection_m.is_some_and(|found_m| found_m > thickness_m);
-        match self {
-            CutVerdict::Unstable => Answer::No,
-            _ if !keeps_margin && scene.limits().margin.is_some() => Answer::No,
-            CutVerdict::AtCritical | CutVerdict::LeavesModel => Answer::AtRisk,
-            CutVerdict::Stable if is_wide || !keeps_margin => Answer::AtRisk,
-            CutVerdict::Stable => Answer::Yes,
-        }
-    }
-
+impl CutStability {
     pub(super) fn new(growth: Verdict, leaves_model: bool, is_critical: bool) -> Self {
         match growth {
-            Verdict::Unstable => CutVerdict::Unstable,
-            Verdict::Stable if leaves_model => CutVerdict::LeavesModel,
-            Verdict::Stable if is_critical => CutVerdict::AtCritical,
-            Verdict::Stable => CutVerdict::Stable,
+            Verdict::Unstable => CutStability::Unstable,
+            Verdict::Stable if leaves_model => CutStability::LeavesModel,
+            Verdict::Stable if is_critical => CutStability::AtCritical,
+            Verdict::Stable => CutStability::Stable,
         }
     }
 }
 
-impl std::fmt::Display for CutVerdict {
+impl std::fmt::Display for CutStability {
     fn fmt(&self, formatter: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         formatter.write_str(match self {
-            CutVerdict::Stable => "stable",
-            CutVerdict::AtCritical => "stable, but at a critical speed",
-            CutVerdict::LeavesModel => "no growth, but the deflection leaves the model",
-            CutVerdict::Unstable => "unstable",
+            CutStability::Stable => "stable",
+            CutStability::AtCritical => "stable, but at a critical speed",
+            CutStability::LeavesModel => "no growth, but the deflection leaves the model",
+            CutStability::Unstable => "unstable",
         })
     }
 }

@@ -5,12 +5,12 @@ use faer::Col;
 use crate::model::plate::Plate;
 use crate::model::scene::{CutRun, Point};
 use crate::model::system::GyroscopicSystem;
-use crate::modes::{Assembled, SpectrumError, smallest};
+use crate::modes::{Assembled, SpectrumError};
 use crate::motion::transient::{
     Deflections, Gauge, Integrator, Propagator, ReducedBlade, SAMPLES, Sinusoid, State,
     TransientError, damped_sinusoids, fitted_growth, lateral_load,
 };
-use crate::stability::{CRITICAL_MARGIN, GrowingModes, critical_at};
+use crate::stability::{CRITICAL_MARGIN, GrowingModes};
 
 use super::record::{
     Growth, MAX_SAMPLES, Record, SAMPLE_S, fastest_mode_rad_per_s, longest_step_s, steps_a_sample,
@@ -23,10 +23,9 @@ use super::stretching::{CutStretching, StretchedCut, stretched_cut};
 pub(super) struct CutHistory {
     /// Growing modes compared with counts on the full model, without the forces and in the cut.
     pub growing: [GrowingModes; 2],
-    /// Critical speed within 5 % of the speed, of the saw in the cut or without the forces; of several, the nearest.
-    pub critical_rad_per_s: Option<f64>,
-    /// First critical speed of either, if it is so low that the speed breaks the limit of their ratio.
-    pub first_critical_rad_per_s: Option<f64>,
+    /// Critical speeds of the saw in the cut and without the forces, ascending, up to slightly above the speed, or so far that the limit of
+    /// its ratio to the first one is decided.
+    pub critical_rad_per_s: Vec<f64>,
     /// Eigenvalues in a cut with the tangential force that follows from the power.
     pub in_cut_by_power: Option<Growth>,
     /// Growth fitted to the deflection in the cut; `None` without a lateral force.
@@ -110,15 +109,14 @@ pub(super) fn cut_history(
     };
     let gauge = Gauge::new(plate, &saw.blade, probe);
     let sinusoids = sinusoids_in_cut(saw, &gauge, in_cut)?;
-    let critical = [
+    let mut critical = [
         critical_near(plate, speed, margin)?,
         critical_near(&saw.cutting, speed, margin)?,
     ]
     .concat();
-    let first = smallest(critical.iter().copied(), |speed| *speed);
+    critical.sort_by(f64::total_cmp);
     Ok(CutHistory {
-        first_critical_rad_per_s: first.filter(|first| speed > margin * first),
-        critical_rad_per_s: critical_at(&critical, speed).map(|place| critical[place]),
+        critical_rad_per_s: critical,
         growing,
         in_cut_by_power: by_power.transpose()?,
         fitted: fitted_growth(&sinusoids).map(Growth::from),

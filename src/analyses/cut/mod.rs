@@ -8,7 +8,7 @@
 //! let scene = Scene::paper();
 //! let runs = scene.needed_cut()?.runs_at(&[1800.0, 2800.0])?;
 //! for run in cut(&scene, &runs, &|_, _| ())?.runs {
-//!     println!("{} rpm: {}", run.rpm, run.verdict);
+//!     println!("{} rpm: {}", run.rpm, run.stability);
 //! }
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
@@ -19,6 +19,7 @@ pub(crate) mod chart;
 mod chart_tests;
 mod criteria;
 mod history;
+mod limits;
 pub(crate) mod map_chart;
 mod options;
 pub(crate) mod orbit_chart;
@@ -46,10 +47,10 @@ use crate::model::scene::{
 use crate::modes::Work;
 use crate::modes::branches::Progress;
 use crate::motion::transient::{TransientError, linear_limit_m};
-use crate::stability::ChosenBasis;
+use crate::stability::{ChosenBasis, critical_at};
 
 pub use certificate::CutCertificate;
-pub use criteria::{CutCriterion, CutFinding, CutVerdict};
+pub use criteria::{CutCriterion, CutFinding, CutStability};
 pub use options::Options;
 pub use report::{ByPower, CutAtSpeed, CutReport};
 pub use spline::SplineOrbit;
@@ -59,6 +60,7 @@ pub use verdict_map::VerdictMap;
 
 use criteria::{agree, criteria, worst};
 use history::cut_history;
+use limits::InCut;
 use record::Growth;
 use saw::SawInCut;
 use spline::on_spline;
@@ -179,20 +181,32 @@ impl Cutting<'_> {
             Some(found) => found.valid_until_s.is_some(),
             None => linear_until_s.is_some() || tooth_passing.passing_deflection_m.is_none(),
         };
-        let at_critical_rpm = history.critical_rad_per_s.map(rpm);
+        let critical_rad_per_s = &history.critical_rad_per_s;
+        let near = critical_at(critical_rad_per_s, run.speed_rad_per_s);
+        let at_critical_rpm = near.map(|place| rpm(critical_rad_per_s[place]));
         let dominant_hz = history.dominant_rad_per_s.map(|speed| speed / TAU);
         let forces_to_s = cut.idle_s + run.duration_s;
         let [in_cut_m, after_m] = history.largest_deflections_m(forces_to_s);
         let by_power = run.tangential_of_power_n.zip(history.in_cut_by_power);
-        let verdict = CutVerdict::new(decision.verdict, leaves_model, at_critical_rpm.is_some());
+        let is_critical = at_critical_rpm.is_some();
+        let stability = CutStability::new(decision.verdict, leaves_model, is_critical);
+        let verdict = InCut {
+            speed_rad_per_s: run.speed_rad_per_s,
+            stability,
+            decisive: criteria.iter().find(|found| found.criterion == decision.by),
+            leaves_model,
+            is_stretched: history.stretched.is_some(),
+            critical_rad_per_s,
+            largest_deflection_m: in_cut_m,
+        }
+        .verdict(scene);
         Ok(CutAtSpeed {
             rpm: run.rpm,
-            answer: verdict.answer(scene, in_cut_m, history.first_critical_rad_per_s.is_none()),
-            past_critical_rpm: history.first_critical_rad_per_s.map(rpm),
+            verdict,
             tangential_n_per_tooth: run.tangential_n,
             radial_n_per_tooth: run.radial_n,
             lateral_n_per_tooth: run.lateral_n,
-            verdict,
+            stability,
             at_critical_rpm,
             decided_by: decision.by,
             criteria,

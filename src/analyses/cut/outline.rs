@@ -1,10 +1,8 @@
 //! The text of a cut.
 
-use super::{CutAtSpeed, CutCriterion, CutReport, CutVerdict};
+use super::{CutAtSpeed, CutCriterion, CutReport};
 use crate::analyses::campbell::Verdict;
-use crate::analyses::verdict::{Answer, near_critical};
-use crate::motion::stretched_blade::LARGEST_SLOPE;
-use crate::motion::transient::LINEAR_THICKNESSES;
+use crate::analyses::verdict::Answer;
 use crate::page::outline::{Column, FREQUENCY, Fact, GROWTH, LENGTH, Outline, Table, Value};
 use crate::page::text::shown_to;
 
@@ -15,7 +13,7 @@ pub fn outline(report: &CutReport) -> Outline {
         &report.unusual_numbers,
     );
     for run in &report.runs {
-        text.headline(in_one_line(run, report.linear_limit_m));
+        text.headline(in_one_line(run));
     }
     for run in &report.runs {
         at_speed(&mut text, run, report.teeth);
@@ -24,49 +22,13 @@ pub fn outline(report: &CutReport) -> Outline {
     text
 }
 
-/// The verdict at a speed; `linear_limit_m` is the largest deflection of the linear model.
-fn in_one_line(run: &CutAtSpeed, linear_limit_m: f64) -> String {
-    let (rpm, critical) = (run.rpm, run.at_critical_rpm);
-    let reason = match run.verdict {
-        CutVerdict::Stable => match (run.past_critical_rpm, run.largest_deflection_in_cut_m) {
-            (Some(critical), _) => format!(
-                "no vibration grows, but {:.0} % of the first critical speed ({critical:.0} rpm)",
-                100.0 * rpm / critical
-            ),
-            (None, Some(found_m)) if run.answer == Answer::AtRisk => format!(
-                "no vibration grows, but the rim moves {} mm, more than the thickness of the blade",
-                shown_to(3, 1e3 * found_m)
-            ),
-            _ => "no vibration grows".to_owned(),
-        },
-        CutVerdict::AtCritical => critical.map_or("at a critical speed".to_owned(), near_critical),
-        CutVerdict::LeavesModel if run.stretching.is_some() => format!(
-            "no vibration grows, but slopes of the blade exceed {LARGEST_SLOPE}, where the model with stretching ends"
-        ),
-        CutVerdict::LeavesModel => format!(
-            "no vibration grows, but the deflection exceeds {LINEAR_THICKNESSES} thicknesses of the blade ({:.1} mm), where the linear model ends, more than any kerf",
-            1e3 * linear_limit_m
-        ),
-        CutVerdict::Unstable => unstable(run),
-    };
-    let word = run.answer.in_words().to_uppercase();
-    format!("Can it cut at {rpm} rpm? {word}: {reason}")
-}
-
-/// The verdict on an unstable cut: growth rate, frequency, and the criterion that decides.
-fn unstable(run: &CutAtSpeed) -> String {
-    let decisive = run.criteria.iter().find(|c| c.criterion == run.decided_by);
-    let Some(entry) = decisive else {
-        return "a vibration grows".to_owned();
-    };
-    let frequency = match entry.frequency_hz {
-        Some(hz) if hz > 0.0 => format!(" at {hz:.2} Hz"),
-        Some(_) => " without oscillation".into(),
-        None => String::new(),
-    };
+/// The verdict at a speed.
+fn in_one_line(run: &CutAtSpeed) -> String {
+    let (rpm, reason) = (run.rpm, &run.verdict.reason);
+    let answer = run.verdict.answer.map_or("", Answer::in_words);
     format!(
-        "growth of {:.3} 1/s{frequency} ({})",
-        entry.growth_per_s, entry.criterion
+        "Can it cut at {rpm} rpm? {}: {reason}",
+        answer.to_uppercase()
     )
 }
 

@@ -4,11 +4,10 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::{
-    CutCertificate, CutCriterion, CutFinding, CutStretching, CutVerdict, SplineOrbit, ToothPassing,
-    VerdictMap,
+    CutCertificate, CutCriterion, CutFinding, CutStability, CutStretching, SplineOrbit,
+    ToothPassing, VerdictMap,
 };
 use crate::analyses::campbell::Verdict;
-use crate::analyses::verdict::Answer;
 use crate::model::scene::SceneFile;
 
 /// Report of a cut (`cut.json`).
@@ -56,19 +55,17 @@ pub struct CutAtSpeed {
     pub radial_n_per_tooth: f64,
     /// Force across the blade on each tooth.
     pub lateral_n_per_tooth: f64,
-    /// Whether the saw can run in the cut: no if a vibration grows; at risk at a critical speed, at more than 85 % of the first one, and where the rim moves by more than the
-    /// thickness of the blade or the deflection leaves the model.
-    pub answer: Answer,
-    /// First critical speed, of the saw in the cut or out of it, if the speed is more than the allowed share of it; else null.
-    #[serde(default)]
-    pub past_critical_rpm: Option<f64>,
+    /// Whether the saw can run in the cut: no if a vibration grows; at risk at a critical speed, at more than 85 % of the first one, and
+    /// where the rim moves by more than the thickness of the blade or the deflection leaves the model. Critical speeds are those of the
+    /// saw in the cut and out of it.
+    pub verdict: crate::analyses::verdict::Verdict,
     /// The worst of the criteria; if no vibration grows, whether the deflection stays within the model, and the speed
     /// away from critical speeds.
-    pub verdict: CutVerdict,
+    pub stability: CutStability,
     /// Critical speed within 5 % of this speed, of the saw in the cut or out of it; null if there is none.
     #[serde(default)]
     pub at_critical_rpm: Option<f64>,
-    /// Criterion of fastest growth among those with this verdict.
+    /// Criterion of fastest growth among those with this stability.
     pub decided_by: CutCriterion,
     /// The result of each criterion.
     pub criteria: Vec<CutFinding>,
@@ -150,6 +147,6 @@ impl CutReport {
     /// Whether nothing grows and the deflection stays within the model, at all speeds.
     pub(crate) fn is_stable(&self) -> bool {
         let mut runs = self.runs.iter();
-        runs.all(|run| run.verdict == CutVerdict::Stable)
+        runs.all(|run| run.stability == CutStability::Stable)
     }
 }

@@ -2,7 +2,7 @@
 
 use std::f64::consts::TAU;
 
-use super::{CutAtSpeed, CutCriterion, CutVerdict};
+use super::{CutAtSpeed, CutCriterion, CutStability};
 use crate::analyses::campbell::Verdict;
 use crate::motion::stretched_blade::LARGEST_SLOPE;
 use crate::motion::transient::LINEAR_THICKNESSES;
@@ -77,7 +77,7 @@ fn moving_loads_alone(run: &CutAtSpeed) -> Option<String> {
         .max(passing.mean_growth_per_s)
         .max(run.growth_per_s);
     let alone = run.decided_by == CutCriterion::MovingToothLoads
-        && run.verdict == CutVerdict::Unstable
+        && run.stability == CutStability::Unstable
         && others < 0.5 * passing.passing_growth_per_s;
     // The resonance is about as wide as the change of speed that changes the tooth frequency, in rad/s, by
     // the growth rate.

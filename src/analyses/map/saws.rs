@@ -4,13 +4,12 @@ use rayon::prelude::*;
 
 use super::contour::{contours, lines};
 use super::{Contour, Contoured, Map, MapReport, MappedSaw};
-use crate::analyses::board_deviation::BoardDeviation;
 use crate::analyses::campbell::InstabilityBand;
-use crate::analyses::check::{Judged, of_deflection};
+use crate::analyses::check::Searched;
 use crate::analyses::study::{Found, LogError, Rows, Saw};
-use crate::analyses::verdict::{Judge, Verdict};
+use crate::analyses::verdict::Verdict;
 use crate::model::plate::{Plate, Resolution};
-use crate::model::scene::{ForceCause, Scene, SpeedRange, rad_per_s, rpm};
+use crate::model::scene::{Scene, SpeedRange, rad_per_s, rpm};
 use crate::model::system::GyroscopicSystem;
 use crate::stability::Evidence;
 
@@ -63,9 +62,9 @@ impl Map {
             .found()
             .and(scene)
             .map(|scene| self.judged(&scene, found));
-        let (verdict, side_force_factor) = judged.unwrap_or_default();
+        let (verdict, side_force_factor) = judged.unzip();
         MappedSaw {
-            side_force_factor,
+            side_force_factor: side_force_factor.flatten(),
             x: self.x.values[saw.index % columns],
             y: self.y.as_ref().map(|y| y.values[saw.index / columns]),
             first_critical_rpm: found.first_critical_rpm,
@@ -78,7 +77,7 @@ impl Map {
     }
 
     /// The verdict on a saw, and how far a side force at the cut deflects it relative to rest.
-    fn judged(&self, scene: &Scene, found: &Found) -> (Option<Verdict>, Option<f64>) {
+    fn judged(&self, scene: &Scene, found: &Found) -> (Verdict, Option<f64>) {
         let critical = found.critical_rad_per_s();
         let evidence = Evidence {
             bands: found.bands.iter().map(InstabilityBand::listed).collect(),
@@ -90,35 +89,18 @@ impl Map {
             floquet: None,
         };
         let basis = self.study.basis();
-        let judge = Judge {
-            found: &evidence,
+        let basis = basis.unwrap_or_else(|| Resolution::of(scene.accuracy()));
+        let searched = Searched {
+            scene,
+            basis,
+            evidence: &evidence,
             limits: &scene.limits(),
-            rim_radius_m: scene.blade().outer_radius_m,
-            is_held: basis.is_none_or(|basis| !has_free_motions(scene, basis)),
-            accuracy: scene.accuracy(),
+            is_held: !has_free_motions(scene, basis),
+            estimated_relative_error: found.estimated_relative_error,
         };
         let speed = self.rpm.map(rad_per_s);
-        let at_speed = speed.zip(basis).map(|(speed_rad_per_s, basis)| {
-            let own = evidence.verdict(speed_rad_per_s);
-            let judged = Judged {
-                speed_rad_per_s,
-                state: own.state,
-                critical_rad_per_s: own.critical.map(|place| critical[place]),
-                estimated_relative_error: Some(found.estimated_relative_error),
-            };
-            let force = scene.constant_force_at(rpm(speed_rad_per_s));
-            let is_limited = judge.limits.max_deviation_m.is_some();
-            // A force that is only assumed breaks no limit that nobody set.
-            let decides = is_limited || force.cause != ForceCause::Assumed;
-            let deviation = decides.then(|| BoardDeviation::of_judged(scene, basis, &judged));
-            let further = deviation.map(|found| of_deflection(scene, &judge, &found));
-            (
-                further.unwrap_or_default(),
-                judged.side_force_factor(scene, basis),
-            )
-        });
-        let (further, factor) = at_speed.unwrap_or_default();
-        (Some(judge.verdict(speed, further)), factor)
+        let factor = speed.and_then(|speed| searched.side_force_factor(speed));
+        (searched.judged(speed).0, factor)
     }
 
     fn contours(&self, saws: &[MappedSaw]) -> Vec<Contour> {

@@ -1,7 +1,7 @@
 //! The inverse question: with which values of a number does the saw keep its limits?
 //!
-//! [`size`](size()) checks saws between two bounds, closes in on every value at which a limit begins or ceases to be kept, and checks a
-//! rounded value inside the nearest range at the accuracy of the scene. The limits are those of [`check`](crate::analyses::check) at the
+//! [`size`](size()) judges saws between two bounds by their critical speeds and bands, closes in on every value at which a limit begins or
+//! ceases to be kept, and checks a rounded value inside the nearest range at the accuracy of the scene. The limits are those of [`check`](crate::analyses::check) at the
 //! operating speed of the scene. Ranges narrower than the distance of two saws can be missed.
 
 pub(crate) mod chart;
@@ -23,14 +23,15 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 
 use rayon::prelude::*;
 
-use crate::analyses::check::CheckReport;
+use crate::analyses::check::{CheckReport, Limits};
 use crate::analyses::door::{Progress, Step};
 use crate::analyses::scene_number;
+use crate::analyses::verdict::Answer;
 use crate::model::scene::{Freed, Quantity, Scene};
 
 use edge::{Bracket, closed_in};
 use rounding::rounded_inside;
-use saw::{Question, SizedSaw, margin};
+use saw::{Judged, Question, SizedSaw};
 
 /// Tolerance with which ranges are searched, before their ends are found with that of the scene.
 const SEARCHED: f64 = 1e-2;
@@ -39,11 +40,36 @@ const PERCENT: f64 = 1e-2;
 /// Number of steps towards the inside of a range in which a value is found that keeps all limits.
 const INWARD: usize = 4;
 
-/// Finds the ranges of a number in which a saw keeps its limits. Several freed numbers have the same value.
+/// Finds the ranges of a number in which a saw keeps its limits, and checks the saw with a value inside the nearest one. Several freed
+/// numbers have the same value.
 ///
 /// # Errors
 /// [`SizeError`] if the scene has no operating speed, or the computation was cancelled.
 pub fn size(
+    scene: &Scene,
+    freed: &[Freed],
+    points: usize,
+    progress: Progress<'_>,
+) -> Result<SizeReport, SizeError> {
+    let mut found = ranges(scene, freed, points, progress)?;
+    let exact = Question {
+        scene,
+        freed,
+        tolerance: None,
+        swept: None,
+    };
+    if let Some((answer, checked)) = answer(&exact, &found.windows, found.of_scene)? {
+        found.answer = Some(answer);
+        found.warnings.splice(..0, checked.warnings);
+    }
+    Ok(found)
+}
+
+/// The ranges of a number in which a saw keeps its limits, without an answer.
+///
+/// # Errors
+/// The errors of [`size`](size()).
+fn ranges(
     scene: &Scene,
     freed: &[Freed],
     points: usize,
@@ -64,16 +90,18 @@ pub fn size(
         freed,
         tolerance: None,
         swept: None,
-        is_whole: false,
     };
     let quick = Question {
         tolerance: (tolerance > scene.tolerance()).then_some(tolerance),
         ..exact
     };
     let to = first.to.max(of_scene);
-    // Multipliers of slots that pass guides belong to one speed, so that such a saw is checked at each.
-    let is_swept = is_speed && scene.file().slot_passing().is_none();
-    let swept = |question: &Question<'_>| is_swept.then(|| question.analysed_to(to)).transpose();
+    let asked = Limits {
+        limits: scene.limits(),
+        ..Limits::at(0.0)
+    };
+    let is_swept = is_speed && asked.need_no_chart(scene);
+    let swept = |question: &Question<'_>| is_swept.then(|| question.swept_to(to)).transpose();
     let [of_exact, of_quick] = [swept(&exact)?, swept(&quick)?];
     let exact = Question {
         swept: of_exact.as_ref(),
@@ -108,13 +136,7 @@ pub fn size(
         })
         .collect::<Result<Vec<_>, SizeError>>()?;
     let windows = windows(&saws, &found);
-    let whole = Question {
-        is_whole: true,
-        ..exact
-    };
-    let answer = answer(&whole, &windows, of_scene)?;
-    let described = answer.as_ref().map(|(_, report)| report.warnings.clone());
-    let mut warnings = described.unwrap_or_default();
+    let mut warnings = Vec::new();
     let refused = saws.iter().filter_map(|saw| saw.found.as_ref().err());
     if let Some(reason) = refused.clone().next() {
         let count = refused.count();
@@ -138,11 +160,11 @@ pub fn size(
         from: first.from,
         to: first.to,
         operating_rpm,
-        kept: saws.iter().map(SizedSaw::is_kept).collect(),
+        answers: saws.iter().map(SizedSaw::answer).collect(),
         limits: limits(&saws),
         values,
         windows,
-        answer: answer.map(|(answer, _)| answer),
+        answer: None,
         each: None,
         searched_tolerance: tolerance,
         saws: asked.into_inner(),
@@ -199,21 +221,18 @@ fn windows(saws: &[SizedSaw], edges: &[Bracket]) -> Vec<SizedWindow> {
 /// Every limit of any of the saws with its margins.
 fn limits(saws: &[SizedSaw]) -> Vec<SizedLimit> {
     let mut limits: Vec<SizedLimit> = Vec::new();
-    let reports = || saws.iter().map(|saw| saw.found.as_ref().ok());
-    for criterion in reports()
-        .flatten()
-        .flat_map(|report| &report.verdict.limits)
-    {
+    let judged = || saws.iter().map(|saw| saw.found.as_ref().ok());
+    for criterion in judged().flatten().flat_map(|judged| &judged.verdict.limits) {
         if limits.iter().all(|limit| limit.key != criterion.key) {
-            let of = |report: &CheckReport| {
-                let mut criteria = report.verdict.limits.iter();
+            let of = |judged: &Judged| {
+                let mut criteria = judged.verdict.limits.iter();
                 let own = criteria.find(|own| own.key == criterion.key)?;
-                margin(report, own)
+                judged.margin(own)
             };
             limits.push(SizedLimit {
                 key: criterion.key.clone(),
                 name: criterion.name.clone(),
-                margins: reports().map(|report| report.and_then(of)).collect(),
+                margins: judged().map(|judged| judged.and_then(of)).collect(),
             });
         }
     }
@@ -240,18 +259,16 @@ fn answer(
         } else {
             rounded_inside(path, window, of_scene, inward)
         };
-        let saw = question.ask(value)?;
-        if !saw.is_kept() {
+        let Some(report) = question.check(value, true)? else {
+            continue;
+        };
+        if report.verdict.answer != Some(Answer::Yes) {
             continue;
         }
-        let (Ok(report), Ok(scene)) = (&saw.found, question.scene_at(value)) else {
+        let Ok(scene) = question.scene_at(value) else {
             continue;
         };
-        let more = Question {
-            is_whole: false,
-            ..*question
-        };
-        let more = more.ask((1.0 + PERCENT) * value)?.found.ok();
+        let more = question.check((1.0 + PERCENT) * value, false)?;
         let critical = |report: &CheckReport| {
             let mut criteria = report.verdict.limits.iter();
             criteria.find(|of| of.key == "margin")?.found_rpm
@@ -259,18 +276,18 @@ fn answer(
         let deflection =
             |report: &CheckReport| report.deviation.as_ref().and_then(|of| of.deflection_m);
         let change =
-            |of: &dyn Fn(&CheckReport) -> Option<f64>| Some(of(more.as_ref()?)? - of(report)?);
+            |of: &dyn Fn(&CheckReport) -> Option<f64>| Some(of(more.as_ref()?)? - of(&report)?);
         let found = SizeAnswer {
             value,
             is_of_scene: value == of_scene,
             scene: scene.file().clone(),
             verdict: report.verdict.clone(),
-            first_critical_rpm: critical(report),
-            deflection_m: deflection(report),
+            first_critical_rpm: critical(&report),
+            deflection_m: deflection(&report),
             critical_rpm_per_percent: change(&critical),
             deflection_m_per_percent: change(&deflection),
         };
-        return Ok(Some((found, report.clone())));
+        return Ok(Some((found, report)));
     }
     Ok(None)
 }

@@ -4,7 +4,7 @@ use schemars::JsonSchema;
 use serde::Deserialize;
 
 use super::each::Each;
-use super::{SizeError, SizeReport, size};
+use super::{SizeError, SizeReport, ranges, size};
 use crate::analyses::check;
 use crate::analyses::door::{CommandError, CommandOptions, Progress, SceneNumber};
 use crate::model::scene::{Freed, NamedBounds, NamedValues, RefusedValue, Scene, SceneFile, rpm};
@@ -158,7 +158,7 @@ impl CommandOptions for Options {
         if let Some(each) = each {
             each.beside(&mut found, |scene| {
                 let freed = self.freed(scene)?;
-                Ok::<_, CommandError>(size(scene, &freed, self.points, progress)?)
+                Ok::<_, CommandError>(ranges(scene, &freed, self.points, progress)?)
             })?;
         }
         Ok(found)

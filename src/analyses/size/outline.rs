@@ -2,8 +2,9 @@
 
 use super::{SizeReport, SizedEach, SizedWindow};
 use crate::analyses::scene_number::{FigureUnit, unit};
+use crate::analyses::verdict::Answer;
 use crate::page::outline::{Column, Outline, PERCENT, PLAIN, Table, Value};
-use crate::page::text::{counted, shown, shown_to};
+use crate::page::text::{capitalized, counted, shown, shown_to};
 
 /// Number of rows of the table.
 const ROWS: usize = 24;
@@ -47,13 +48,14 @@ pub fn outline(report: &SizeReport) -> Outline {
     }
     if let Some(answer) = &report.answer {
         let whose = if answer.is_of_scene {
-            ", the value of the scene,"
+            ", the value of the scene"
         } else {
             ""
         };
         text.sentence(format!(
-            "{}{whose} keeps all limits: {}",
+            "{}{whose}: {}: {}",
             of(report, answer.value),
+            Answer::Yes.in_words().to_uppercase(),
             answer.verdict.reason
         ));
         let critical = answer
@@ -103,7 +105,7 @@ pub fn headline(report: &SizeReport) -> String {
         None => String::new(),
     };
     let ranges = ranges(report, &report.windows, [report.from, report.to]);
-    format!("{}{at}: {ranges}", report.name)
+    format!("{}{at}: {ranges}", capitalized(&report.name))
 }
 
 /// The ranges in words, of values between two bounds.
@@ -151,18 +153,18 @@ fn saws(report: &SizeReport) -> Table {
     let FigureUnit { symbol, factor } = unit(report.path());
     let columns = [
         Column::of(report.name.clone(), &PLAIN).in_unit(symbol),
-        Column::words("limits"),
+        Column::words("answer"),
         Column::of("margin", &PERCENT),
         Column::words("of"),
     ];
     let mut table = Table::new("Saws", columns).showing(ROWS);
-    for (k, (value, is_kept)) in report.values.iter().zip(&report.kept).enumerate() {
+    for (k, (value, answer)) in report.values.iter().zip(&report.answers).enumerate() {
         let known = report
             .limits
             .iter()
             .filter_map(|limit| Some((limit.margins[k]?, limit)));
         let nearest = known.min_by(|x, y| x.0.total_cmp(&y.0));
-        let word = if *is_kept { "kept" } else { "not kept" };
+        let word = answer.map_or("refused", Answer::in_words);
         table.row([
             PLAIN.digits(DIGITS, factor * value),
             Value::Word(word.to_owned()),

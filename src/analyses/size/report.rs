@@ -3,7 +3,7 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use crate::analyses::verdict::Verdict;
+use crate::analyses::verdict::{Answer, Verdict};
 use crate::model::scene::SceneFile;
 
 /// The values of a number with which a saw keeps its limits.
@@ -34,8 +34,8 @@ pub struct SizeReport {
     pub operating_rpm: Option<f64>,
     /// Values that were tried, ascending.
     pub values: Vec<f64>,
-    /// Whether the saw keeps all limits at each of these values.
-    pub kept: Vec<bool>,
+    /// Whether the saw can run at each of these values; null where it was refused.
+    pub answers: Vec<Option<Answer>>,
     /// Every limit, with its margin at each of these values.
     pub limits: Vec<SizedLimit>,
     /// Ranges of values in which the saw keeps all limits.

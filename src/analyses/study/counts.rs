@@ -142,8 +142,7 @@ impl<'a> Counts<'a> {
 
     /// Upper limit of the deflection at the cut.
     fn limit_m(&self) -> Option<f64> {
-        let asked = self.study.file().gap?;
-        asked.max_deviation_mm.map(|mm| 1e-3 * mm)
+        self.study.file().gap?.limit_m(self.study.scene().file())
     }
 
     fn passing(&self, limits: &Limits) -> Passing {

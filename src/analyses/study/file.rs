@@ -3,7 +3,7 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use crate::model::scene::{RefusedValue, SceneError};
+use crate::model::scene::{RefusedValue, SceneError, SceneFile};
 use crate::page::text::{KeyedError, from_keyed_json};
 use crate::stability::AnalysisError;
 
@@ -72,12 +72,20 @@ pub struct GapFile {
     /// Rotation speed; by default the operating speed of the scene.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub rpm: Option<f64>,
-    /// Upper limit of the deflection at the cut; the saws that keep it are counted.
+    /// Upper limit of the deflection at the cut; the saws that keep it are counted. By default `limits.max_deviation_m` of the scene.
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub max_deviation_mm: Option<f64>,
+    pub max_deviation_m: Option<f64>,
     /// Amplitude of an oscillation at the guides, with whose mean stiffness the first critical speed is computed.
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub amplitude_mm: Option<f64>,
+    pub amplitude_m: Option<f64>,
+}
+
+impl GapFile {
+    /// Upper limit of the deflection at the cut of the saws of a scene.
+    pub(super) fn limit_m(&self, scene: &SceneFile) -> Option<f64> {
+        let of_scene = scene.limits.as_ref();
+        self.max_deviation_m.or_else(|| of_scene?.max_deviation_m)
+    }
 }
 
 fn default_quantiles() -> Vec<f64> {

@@ -37,12 +37,12 @@ pub fn outline(report: &StudyReport) -> Outline {
     }
     quantiles(&mut text, report);
     if let (Some(gap), Some(asked)) = (&report.all.gap, &report.study.gap)
-        && let (Some(within), Some(limit)) = (gap.saws_within, asked.max_deviation_mm)
+        && let (Some(within), Some(limit)) = (gap.saws_within, asked.limit_m(&report.scene))
     {
         text.sentence(format!(
-            "{within} of {} saws deflect by at most {} mm at the cut under {} N",
+            "{within} of {} saws deflect by at most {} at the cut under {} N",
             report.all.saws,
-            shown_to(3, limit),
+            LENGTH.digits(3, limit).with_unit(),
             shown_to(3, force_n(report))
         ));
     }

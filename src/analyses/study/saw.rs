@@ -5,13 +5,12 @@ use std::panic::{AssertUnwindSafe, catch_unwind};
 use serde::{Deserialize, Serialize};
 
 use super::plan::Study;
-use crate::analyses::board_deviation::BoardDeviation;
 use crate::analyses::campbell::InstabilityBand;
-use crate::analyses::check::{Judged, Limits, of_deviation};
+use crate::analyses::check::{Searched, of_deviation};
 use crate::analyses::gap::{GapError, GapNumbers};
-use crate::analyses::verdict::{Criterion, Judge};
+use crate::analyses::verdict::Criterion;
 use crate::model::scene::{Scene, SpeedRange, rad_per_s, rpm};
-use crate::stability::{AnalysisError, CRITICAL_MARGIN, Evidence, ListedBand, Onsets};
+use crate::stability::{AnalysisError, CRITICAL_MARGIN, Onsets};
 
 /// A saw and its result.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -166,28 +165,6 @@ impl Study {
         self.with_onsets(scene, onsets)
     }
 
-    /// The limit of the deflection at the cut; `None` without one.
-    fn deviation(
-        &self,
-        scene: &Scene,
-        evidence: &Evidence<'_>,
-        limits: &Limits,
-        estimated_relative_error: Option<f64>,
-    ) -> Option<Criterion> {
-        limits.limits.max_deviation_m?;
-        let speed_rad_per_s = limits.operating_rad_per_s;
-        let own = evidence.verdict(speed_rad_per_s);
-        let judged = Judged {
-            speed_rad_per_s,
-            state: own.state,
-            critical_rad_per_s: own.critical.map(|place| evidence.critical_rad_per_s[place]),
-            estimated_relative_error,
-        };
-        let basis = self.basis();
-        let found = basis.map(|basis| BoardDeviation::of_judged(scene, basis, &judged));
-        of_deviation(&limits.limits, rpm(speed_rad_per_s), found.as_ref())
-    }
-
     fn with_onsets(&self, scene: &Scene, onsets: Onsets) -> Result<Found, GapError> {
         let certificate = &onsets.certificate;
         if certificate.has_failed() {
@@ -196,22 +173,7 @@ impl Study {
                 speeds: certificate.speeds_checked,
             }));
         }
-        // Speeds of edges have at least the error of the critical speeds.
-        let edge_error = Some(onsets.estimated_relative_error);
-        let threshold_per_s = scene.flutter_threshold_per_s();
-        let listed = onsets.instabilities.iter();
-        let listed = listed.map(|band| ListedBand::new(band, threshold_per_s, edge_error));
-        let evidence = Evidence {
-            bands: listed.collect(),
-            has_failed: false,
-            critical_rad_per_s: &onsets.critical_rad_per_s,
-            threshold_per_s,
-            range_rad_per_s: SpeedRange::new(0.0, self.to_rad_per_s()),
-            covered_to_rad_per_s: scene
-                .file()
-                .covered_to(onsets.critical_rad_per_s.first().copied()),
-            floquet: None,
-        };
+        let evidence = onsets.evidence(scene, SpeedRange::new(0.0, self.to_rad_per_s()));
         let gap = match (self.gap(), self.basis()) {
             (Some(case), Some(basis)) => {
                 let GapNumbers {
@@ -227,24 +189,27 @@ impl Study {
             _ => vec![None; self.gap_columns().len()],
         };
         let criteria = self.limits().map(|limits| {
-            let judge = Judge {
-                found: &evidence,
+            let searched = Searched {
+                scene,
+                basis: self.basis().unwrap_or(onsets.resolution),
+                evidence: &evidence,
                 limits: &limits.limits,
-                rim_radius_m: scene.blade().outer_radius_m,
                 is_held: !onsets.has_free_motions,
-                accuracy: scene.accuracy(),
+                estimated_relative_error: onsets.estimated_relative_error,
             };
             let operating = limits.operating_rad_per_s;
-            let deviation = self.deviation(scene, &evidence, limits, edge_error);
-            let criteria = judge.criteria(operating).into_iter();
+            let limited = limits.limits.max_deviation_m.and(Some(operating));
+            let found = limited.and_then(|speed| searched.deviation(speed));
+            let deviation = of_deviation(&limits.limits, rpm(operating), found.as_ref());
+            let criteria = searched.judge().criteria(operating).into_iter();
             criteria.chain(deviation).collect::<Vec<_>>()
         });
         let (mut bands, mut critical_rpm) = (Vec::new(), Vec::new());
         if self.file().bands {
             let listed = onsets.instabilities.iter();
             bands.extend(listed.map(|band| InstabilityBand {
-                estimated_relative_error: edge_error,
-                ..InstabilityBand::new(band, threshold_per_s)
+                estimated_relative_error: Some(onsets.estimated_relative_error),
+                ..InstabilityBand::new(band, evidence.threshold_per_s)
             }));
             let end = self.to_rad_per_s();
             let critical = onsets.critical_rad_per_s.iter();

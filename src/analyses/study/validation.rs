@@ -179,30 +179,26 @@ pub(super) fn limits(file: &StudyLimits, scene: &Scene) -> Result<Limits, StudyE
 
 /// Validates the block `gap` of the study.
 pub(super) fn gap(file: &GapFile, scene: &Scene) -> Result<GapCase, StudyError> {
-    let in_mm = |key, given: f64| {
-        let (allowed, remedy) = (
-            "above 0 and at most 1000",
-            "give it in millimetres, such as 0.1",
-        );
+    let in_m = |key, given: f64| {
+        let (allowed, remedy) = ("above 0 and at most 1", "give it in metres, such as 1e-4");
         RefusedValue::new(key, given, allowed, remedy)
     };
     let options = gap::Options {
         rpm: file.rpm,
         ..gap::Options::default()
     };
-    if let Some(limit) = file.max_deviation_mm
-        && !(limit > 0.0 && limit <= 1e3)
+    if let Some(limit) = file.max_deviation_m
+        && !(limit > 0.0 && limit <= 1.0)
     {
-        return Err(in_mm("gap.max_deviation_mm", limit).into());
+        return Err(in_m("gap.max_deviation_m", limit).into());
     }
     let of_study = |refused: RefusedValue| match refused.key.as_str() {
         "rpm" => RefusedValue {
             key: "gap.rpm".into(),
             ..refused
         },
-        "amplitude_m" => in_mm("gap.amplitude_mm", file.amplitude_mm.unwrap_or_default()),
+        "amplitude_m" => in_m("gap.amplitude_m", file.amplitude_m.unwrap_or_default()),
         _ => refused,
     };
-    let amplitude_m = file.amplitude_mm.map(|mm| 1e-3 * mm);
-    Ok(GapCase::new(scene, &options, amplitude_m).map_err(of_study)?)
+    Ok(GapCase::new(scene, &options, file.amplitude_m).map_err(of_study)?)
 }

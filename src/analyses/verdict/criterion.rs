@@ -68,6 +68,13 @@ impl Criterion {
         }
     }
 
+    /// The criterion that decides: the first of those with the worst answer; `None` if all are kept.
+    pub(super) fn deciding(limits: &[Criterion]) -> Option<&Criterion> {
+        let worst = limits.iter().map(|criterion| criterion.answer).max();
+        let mut broken = limits.iter().filter(|criterion| !criterion.is_kept());
+        broken.find(|criterion| Some(criterion.answer) == worst)
+    }
+
     /// The result as the reason of a verdict.
     pub(crate) fn in_words(&self) -> String {
         match self.key.as_str() {

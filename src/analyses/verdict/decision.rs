@@ -14,9 +14,7 @@ impl Judge<'_> {
         let limits: Vec<Criterion> = own.into_iter().flatten().chain(further).collect();
         let allowed = allowed(self, &limits);
         let answer = limits.iter().map(|criterion| criterion.answer).max();
-        let decides = limits
-            .iter()
-            .find(|criterion| !criterion.is_kept() && Some(criterion.answer) == answer);
+        let decides = Criterion::deciding(&limits);
         Verdict {
             answer,
             rpm: speed_rad_per_s.map(rpm),

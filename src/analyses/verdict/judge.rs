@@ -1,13 +1,12 @@
 //! What is known of a saw, and the limits by which it is judged.
 
-use super::criterion::{CRITICAL, MARGIN, STABILITY};
-use super::words::{apart, by_floquet, near_critical, too_close, typed_rpm};
+use super::criterion::STABILITY;
+use super::critical::{of_critical, of_margin, source};
+use super::words::{apart, by_floquet, too_close, typed_rpm};
 use super::{Answer, Criterion, LimitSource};
 use crate::model::scene::{Accuracy, LimitsFile, rpm};
-use crate::page::text::{shown, shown_to};
-use crate::stability::{
-    CRITICAL_MARGIN, Evidence, InstabilityKind, ListedBand, StabilityState, critical_at,
-};
+use crate::page::text::shown_to;
+use crate::stability::{Evidence, InstabilityKind, ListedBand, StabilityState};
 
 /// A saw before its verdict.
 #[derive(Debug, Clone, Copy)]
@@ -28,8 +27,9 @@ impl Judge<'_> {
     /// Every limit at a speed that follows from critical speeds and bands.
     pub fn criteria(&self, speed_rad_per_s: f64) -> Vec<Criterion> {
         let mut criteria = vec![self.of_stability(speed_rad_per_s)];
-        criteria.push(self.of_critical(speed_rad_per_s));
-        criteria.push(self.of_margin(speed_rad_per_s));
+        let critical = self.found.critical_rad_per_s;
+        criteria.push(of_critical(critical, speed_rad_per_s));
+        criteria.push(of_margin(self.limits, critical.first(), speed_rad_per_s));
         criteria.extend(self.of_all_speeds());
         criteria.push(self.of_rim(speed_rad_per_s));
         criteria.push(self.of_rigid_motions(speed_rad_per_s));
@@ -158,50 +158,6 @@ impl Judge<'_> {
         .kept_if(self.is_held)
     }
 
-    /// The distance from critical speeds.
-    fn of_critical(&self, speed_rad_per_s: f64) -> Criterion {
-        let percent = shown(100.0 * CRITICAL_MARGIN);
-        let near = critical_at(self.found.critical_rad_per_s, speed_rad_per_s);
-        let near_rpm = near.map(|place| rpm(self.found.critical_rad_per_s[place]));
-        Criterion {
-            key: CRITICAL.to_owned(),
-            name: format!("no critical speed within {percent} %"),
-            finding: near_rpm.map_or("none".to_owned(), near_critical),
-            found_rpm: near_rpm,
-            asked_rpm: rpm(speed_rad_per_s),
-            source: LimitSource::Practice,
-            answer: Answer::Yes,
-        }
-        .kept_if(near_rpm.is_none())
-    }
-
-    /// The ratio to the first critical speed.
-    fn of_margin(&self, speed_rad_per_s: f64) -> Criterion {
-        let margin = self.limits.margin();
-        let lowest = self.found.critical_rad_per_s.first().copied();
-        let asked = speed_rad_per_s / margin;
-        let finding = match lowest {
-            None => "no critical speed was found".to_owned(),
-            Some(critical) => {
-                let [share, _] = apart(1e2 * speed_rad_per_s / critical, 1e2 * margin);
-                format!(
-                    "{share} % of the first critical speed ({:.0} rpm)",
-                    rpm(critical)
-                )
-            }
-        };
-        Criterion {
-            key: MARGIN.to_owned(),
-            name: format!("{} % rule", shown(1e2 * margin)),
-            finding,
-            found_rpm: lowest.map(rpm),
-            asked_rpm: rpm(asked),
-            source: source(self.limits.margin),
-            answer: Answer::Yes,
-        }
-        .kept_if(lowest.is_none_or(|found| found >= asked))
-    }
-
     /// The lower limit of the flutter speed.
     fn of_flutter(&self, asked_rpm: f64) -> Criterion {
         let found = self.found;
@@ -270,14 +226,6 @@ const QUIET_BY_FLOQUET: &str = "no motion grows while slots pass the guides, by 
 pub(super) const FREE: &str = "nothing holds the blade's rigid motions";
 
 pub(super) const SEARCH_FAILED: &str = "not determined: the search for bands failed; a shorter sweep or another accuracy may avoid this";
-
-/// Whose limit it is, if practice has one where the user sets none.
-fn source(of_user: Option<f64>) -> LimitSource {
-    match of_user {
-        Some(_) => LimitSource::User,
-        None => LimitSource::Practice,
-    }
-}
 
 /// What grows in a band.
 fn grows(band: &ListedBand) -> String {

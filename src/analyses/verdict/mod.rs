@@ -8,6 +8,7 @@
 mod allowed;
 mod answer;
 mod criterion;
+mod critical;
 mod decision;
 mod floquet;
 mod judge;
@@ -17,8 +18,9 @@ mod tests;
 mod words;
 
 pub use answer::Answer;
-pub(crate) use criterion::{CRITICAL, MARGIN};
+pub(crate) use criterion::{CRITICAL, MARGIN, STABILITY};
 pub use criterion::{Criterion, LimitSource};
+pub(crate) use critical::{of_critical, of_margin};
 pub use floquet::FloquetEntry;
 pub(crate) use judge::{Judge, OPEN_CAUSES};
 pub use report::Verdict;

@@ -35,6 +35,23 @@ pub struct Verdict {
 }
 
 impl Verdict {
+    /// The verdict at one speed by its limits alone, the first of which is that no motion grows; nothing is known at other speeds.
+    pub(crate) fn at_one_speed(rpm: f64, limits: Vec<Criterion>) -> Self {
+        let decides = Criterion::deciding(&limits);
+        let of_motion = limits.first().map(|criterion| criterion.finding.clone());
+        Verdict {
+            answer: limits.iter().map(|criterion| criterion.answer).max(),
+            rpm: Some(rpm),
+            cause: decides.map(|criterion| criterion.key.clone()),
+            reason: decides.map_or(of_motion.unwrap_or_default(), Criterion::in_words),
+            allowed_to_rpm: None,
+            allowed_by: None,
+            windows_rpm: Vec::new(),
+            limits,
+            floquet: None,
+        }
+    }
+
     /// The question and its answer: "Can it run at 2400 rpm? AT RISK: 91 % of the first critical speed (2632 rpm); run it up to 2237 rpm
     /// (85 % of the first critical speed)".
     pub fn headline(&self) -> String {

@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 
 use crate::analyses::campbell::Report;
 use crate::analyses::commands;
-use crate::analyses::compare::{LabelledSaw, Saw, compare};
+use crate::analyses::compare::{NamedSaw, Saw, compare};
 use crate::model::scene::Scene;
 use crate::page::text::{Kind, OtherEncodings};
 use anyhow::anyhow;
@@ -58,18 +58,18 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<()> {
     output.report(&folder, &arguments.page, &report, Vec::new())
 }
 
-/// Reads the saws and labels them.
-fn saws(arguments: &Arguments) -> anyhow::Result<Vec<LabelledSaw>> {
+/// Reads the saws and names them.
+fn saws(arguments: &Arguments) -> anyhow::Result<Vec<NamedSaw>> {
     let mut saws = Vec::new();
     for path in &arguments.files {
-        let label = unused(label(path), &saws);
+        let name = unused(name(path), &saws);
         let saw = read(path, &arguments.changes)?;
-        saws.push(LabelledSaw { label, saw });
+        saws.push(NamedSaw { name, saw });
     }
     if saws.is_empty() {
         let scene = arguments.changes.applied(Scene::paper())?;
-        saws.push(LabelledSaw {
-            label: "built-in".to_owned(),
+        saws.push(NamedSaw {
+            name: "built-in".to_owned(),
             saw: Saw::Scene(Box::new(scene)),
         });
     }
@@ -81,9 +81,9 @@ fn saws(arguments: &Arguments) -> anyhow::Result<Vec<LabelledSaw>> {
         };
         let option = format!("--variant {variant}");
         let scene = with_settings(first, variant.split(','), &option)?;
-        let label = unused(in_short(variant), &saws);
+        let name = unused(in_short(variant), &saws);
         let saw = Saw::Scene(Box::new(scene));
-        saws.push(LabelledSaw { label, saw });
+        saws.push(NamedSaw { name, saw });
     }
     anyhow::ensure!(
         saws.len() > 1,
@@ -127,7 +127,7 @@ fn in_short(variant: &str) -> String {
 }
 
 /// Label of the saw of a file: the name of the file or, for a report, of its folder.
-fn label(path: &Path) -> String {
+fn name(path: &Path) -> String {
     if is_standard_input(path) {
         return "standard-input".to_owned();
     }
@@ -140,10 +140,10 @@ fn label(path: &Path) -> String {
     name.to_string_lossy().into_owned()
 }
 
-/// The label, with a number if another saw has it already.
-fn unused(label: String, saws: &[LabelledSaw]) -> String {
-    let numbered = (2..).map(|k| format!("{label}-{k}"));
-    let mut names = std::iter::once(label.clone()).chain(numbered);
-    let free = names.find(|name| !saws.iter().any(|taken| taken.label == *name));
-    free.unwrap_or(label)
+/// The name, with a number if another saw has it already.
+fn unused(name: String, saws: &[NamedSaw]) -> String {
+    let numbered = (2..).map(|k| format!("{name}-{k}"));
+    let mut names = std::iter::once(name.clone()).chain(numbered);
+    let free = names.find(|name| !saws.iter().any(|taken| taken.name == *name));
+    free.unwrap_or(name)
 }

@@ -16,7 +16,7 @@ Examples:
   sawflutter cut my-saw.json --rpm 2400        # your own saw at another speed
   sawflutter cut my-saw.json --power 20kW --depth 100mm # a scene without a cut
   sawflutter cut --stretching                  # past five thicknesses
-  sawflutter cut --json | jq '.runs[].verdict' # for scripts
+  sawflutter cut --json | jq '.runs[].verdict.answer' # for scripts
 
 The forces are the scene's `cut`; `sawflutter schema` says what it may contain.";
 

@@ -4,7 +4,7 @@ use serde_json::Value;
 
 use super::fields::{Field, FieldUnit, Units};
 use crate::model::scene::{Quantity, RefusedValue};
-use crate::page::text::shown_to;
+use crate::page::text::{capitalized, shown_to};
 
 /// Number of significant digits of a bound.
 const DIGITS: usize = 6;
@@ -47,7 +47,7 @@ pub fn unread(field: &Field, refused: &RefusedValue) -> String {
 
 /// Name of a field at the beginning of a sentence.
 fn subject(field: &Field) -> String {
-    capital(if UNCLEAR.contains(&field.unit(Units::Metric).unit) {
+    capitalized(if UNCLEAR.contains(&field.unit(Units::Metric).unit) {
         field.name
     } else {
         &field.label
@@ -185,12 +185,6 @@ fn named(path: &str, word: &str) -> String {
         || word.replace('_', " "),
         |found| format!("the {}", found.name),
     )
-}
-
-fn capital(text: &str) -> String {
-    let mut characters = text.chars();
-    let first = characters.next().map(|c| c.to_uppercase().to_string());
-    first.unwrap_or_default() + characters.as_str()
 }
 
 #[cfg(test)]

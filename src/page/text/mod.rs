@@ -15,7 +15,7 @@ pub use file::{FileError, Kind, OtherEncodings, read_path};
 pub(crate) use json::from_keyed_json;
 pub use number::shown_to;
 pub(crate) use number::{
-    MOST_DIGITS, counted, fixed, rounded_between, rounded_down, shown, time_in_words,
+    MOST_DIGITS, capitalized, counted, fixed, rounded_between, rounded_down, shown, time_in_words,
 };
 
 /// Replaces characters that control a terminal or change the direction of text by their escapes. Line breaks

@@ -58,6 +58,13 @@ pub fn counted(count: usize, [one, several]: [&str; 2]) -> String {
     format!("{count} {}", if count == 1 { one } else { several })
 }
 
+/// A text as the start of a sentence.
+pub fn capitalized(text: &str) -> String {
+    let mut characters = text.chars();
+    let first = characters.next().map(|c| c.to_uppercase().to_string());
+    first.unwrap_or_default() + characters.as_str()
+}
+
 /// A time in words, to about a tenth.
 pub fn time_in_words(seconds: f64) -> String {
     match seconds {
