@@ -147,7 +147,7 @@ fn calls() -> String {
     serde_json::json!(sawflutter::analyses::commands::Call::all()).to_string()
 }
 
-/// The keys of a scene, or of a study, whose path contains a word, as text.
+/// The keys of a scene, or of a study, with these words in their path or their text.
 #[pyfunction]
 fn keys(word: &str, of_study: bool) -> String {
     sawflutter::app::cli::keys(word, of_study)

@@ -74,8 +74,20 @@ pub fn named_bounds(text: &str) -> Result<NamedBounds, String> {
         ));
     };
     let path = name.trim();
-    let bound = |bound| number_of(path, bound).map_err(|refused| refused.to_string());
-    Ok((path.to_owned(), Some((bound(from)?, bound(to)?))))
+    let bound = |bound: &str| number_of(path, bound).map_err(|refused| refused.to_string());
+    let from = with_unit_of(to, from);
+    Ok((path.to_owned(), Some((bound(&from)?, bound(to)?))))
+}
+
+/// A number with the unit that stands behind another one, if it has none of its own: 2 of `2..3mm` is 2 mm.
+fn with_unit_of(other: &str, number: &str) -> String {
+    let behind = |text: &str| {
+        let digits = text.rfind(|c: char| c.is_ascii_digit());
+        digits.map_or(0, |last| last + 1)
+    };
+    let is_bare = number.trim().parse::<f64>().is_ok();
+    let unit = &other[behind(other)..];
+    format!("{number}{}", if is_bare { unit } else { "" })
 }
 
 /// Reads a path of the scene with values: `blade.thickness_m=2.0mm,2.2mm,2.4mm`.

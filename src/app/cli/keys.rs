@@ -12,45 +12,65 @@ use super::common::say;
 
 pub const EXAMPLES: &str = "\
 Examples:
-  sawflutter keys          # every key of a scene
-  sawflutter keys guides   # those whose path contains this word
-  sawflutter keys --study  # those of a study";
+  sawflutter keys             # every key of a scene
+  sawflutter keys guides      # those with this word in their path or their text
+  sawflutter keys feed speed  # those with both words
+  sawflutter keys --study     # those of a study
+
+Exit code: 0 some keys have these words, 1 none has.";
 
 #[derive(Args)]
 pub struct Arguments {
-    /// Keys whose path contains this; all by default
-    word: Option<String>,
+    /// Words in the path or the text of a key; all keys by default
+    words: Vec<String>,
     /// Print the keys of a study instead
     #[arg(long)]
     study: bool,
 }
 
-/// Prints the keys of a scene, or of a study.
-pub fn run(arguments: &Arguments) -> anyhow::Result<()> {
-    let word = arguments.word.as_deref().unwrap_or_default();
-    Ok(say(&listed(word, arguments.study))?)
+/// Prints the keys of a scene, or of a study. Returns whether there are any with these words.
+pub fn run(arguments: &Arguments) -> anyhow::Result<bool> {
+    let words = arguments.words.join(" ");
+    let found = listed(&words, arguments.study);
+    if found.is_empty() {
+        eprintln!("nothing found for {words:?}; `sawflutter keys` without a word prints all keys");
+    }
+    say(&found)?;
+    Ok(!found.is_empty())
 }
 
-/// The keys of a scene, or of a study, whose path contains a word, each with its unit, default, usual range and meaning.
-pub fn listed(word: &str, of_study: bool) -> String {
+/// The keys of a scene, or of a study, with all these words in their path or their text, each with its unit, default, usual range and
+/// meaning; those with the words in their path come first.
+pub fn listed(words: &str, of_study: bool) -> String {
     let schema = if of_study {
         study::json_schema()
     } else {
         scene::json_schema()
     };
-    let mut text = String::new();
-    for key in scene::keys(&schema) {
-        // The entries of a list are described with the list.
-        if !key.path.contains(word) || key.path.ends_with("[]") {
-            continue;
-        }
-        text += &heading(&key, &schema);
+    let has_words = |text: &str| {
+        let text = text.to_lowercase();
+        let mut words = words.split_whitespace();
+        words.all(|word| text.contains(&word.to_lowercase()))
+    };
+    // The entries of a list are described with the list.
+    let mut keys = scene::keys(&schema);
+    keys.retain(|key| !key.path.ends_with("[]"));
+    let (by_path, others): (Vec<Key>, Vec<Key>) =
+        keys.into_iter().partition(|key| has_words(&key.path));
+    let by_path = by_path.iter().map(|key| printed(key, &schema));
+    let others = others.iter().map(|key| printed(key, &schema));
+    by_path
+        .chain(others.filter(|text| has_words(text)))
+        .collect()
+}
+
+/// A key with its meaning below.
+fn printed(key: &Key, schema: &Value) -> String {
+    let mut text = heading(key, schema) + "\n";
+    for line in lines(key, schema) {
+        let line: Vec<&str> = line.split_whitespace().collect();
+        text += &wrapped(&format!("- {}", line.join(" ")));
         text += "\n";
-        for line in lines(&key, &schema) {
-            let line: Vec<&str> = line.split_whitespace().collect();
-            text += &wrapped(&format!("- {}", line.join(" ")));
-            text += "\n";
-        }
     }
     text
 }
@@ -134,8 +154,28 @@ mod tests {
     use super::*;
     use crate::model::scene::QUANTITIES;
 
+    #[test]
+    fn keys_are_found_by_their_path_and_by_their_text() {
+        let first = |words: &str| {
+            let found = listed(words, false);
+            found
+                .split_whitespace()
+                .next()
+                .unwrap_or_default()
+                .to_owned()
+        };
+        for (words, key) in [
+            ("Kerf", "blade.thickness_m"),
+            ("feed speed", "cut.feed_m_per_s"),
+            ("thickness", "blade.thickness_m"),
+        ] {
+            assert_eq!(first(words), key, "{words}");
+        }
+        assert_eq!(listed("foo", false), "");
+    }
+
     /// The heading and the lines below of a key.
-    fn printed(path: &str) -> [String; 2] {
+    fn parts(path: &str) -> [String; 2] {
         let schema = scene::json_schema();
         let key = scene::keys(&schema)
             .into_iter()
@@ -149,16 +189,16 @@ mod tests {
     fn every_number_of_a_scene_is_a_key_with_a_meaning() {
         for quantity in QUANTITIES {
             let path = quantity.path.trim_end_matches("[]");
-            let [heading, meaning] = printed(path);
+            let [heading, meaning] = parts(path);
             assert!(!meaning.trim().is_empty(), "{path}");
             assert!(heading.contains("usual range "), "{heading}");
         }
-        let [heading, _] = printed("blade.outer_diameter_m");
+        let [heading, _] = parts("blade.outer_diameter_m");
         assert_eq!(
             heading,
             "blade.outer_diameter_m  [m]  required in blade  usual range 0.04 to 5"
         );
-        let [of_mount, _] = printed("mount.diameter_m");
+        let [of_mount, _] = parts("mount.diameter_m");
         assert!(
             of_mount.contains("required in mount  of kind \"collar\""),
             "{of_mount}"
@@ -184,7 +224,7 @@ mod tests {
             ),
             ("accuracy", &["\"draft\": 1 %"]),
         ] {
-            let [_, lines] = printed(path);
+            let [_, lines] = parts(path);
             for word in words {
                 assert!(lines.contains(word), "{path}: {lines}");
             }

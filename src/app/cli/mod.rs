@@ -13,6 +13,7 @@ mod export;
 mod keys;
 mod map;
 mod margin;
+mod mistyped;
 mod one_scene;
 mod output;
 mod page;
@@ -22,6 +23,7 @@ mod python;
 mod records;
 mod scheduler;
 mod schema;
+mod shell;
 mod study;
 mod tradeoff;
 
@@ -118,6 +120,12 @@ enum Command {
     Keys(keys::Arguments),
     /// Print the JSON schema of a scene, or of a study
     Schema(schema::Arguments),
+    /// Print the completions of a shell
+    #[command(after_help = shell::COMPLETIONS)]
+    Completions(shell::Completions),
+    /// Print the manual page
+    #[command(after_help = shell::MAN)]
+    Man,
 }
 
 const EXAMPLES: &str = "\
@@ -137,11 +145,13 @@ Exit code: 0 done, 1 a check failed, 2 the input was refused or the run failed."
 /// Runs the command given by the arguments, the first of which is the name of the program. Returns the exit code:
 /// 0 done, 1 a check failed, 2 refused or failed.
 pub fn run(arguments: impl IntoIterator<Item = OsString>) -> u8 {
-    let arguments = match Arguments::try_parse_from(with_command(arguments)) {
+    let typed = with_command(arguments);
+    let arguments = match Arguments::try_parse_from(&typed) {
         Ok(arguments) => arguments,
         // The message repeats the user's words, and control characters in them could control the terminal:
         // they are made visible.
         Err(refusal) if refusal.use_stderr() => {
+            let refusal = mistyped::explained(refusal, &Arguments::command(), &typed);
             eprint!("{}", printable(&refusal.render().to_string()));
             return 2;
         }
@@ -207,8 +217,10 @@ fn command(command: Option<Command>) -> anyhow::Result<bool> {
         Some(Command::Size(arguments)) => return one_scene::run(&arguments),
         Some(Command::Check(arguments)) => return one_scene::run(&arguments),
         Some(Command::Study(arguments)) => study::run(&arguments),
-        Some(Command::Keys(arguments)) => keys::run(&arguments),
+        Some(Command::Keys(arguments)) => return keys::run(&arguments),
         Some(Command::Schema(arguments)) => schema::run(&arguments),
+        Some(Command::Completions(arguments)) => shell::completions(&arguments),
+        Some(Command::Man) => shell::man(),
     }
     .map(|()| true)
 }

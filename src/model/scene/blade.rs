@@ -19,7 +19,7 @@ pub struct BladeFile {
     pub outer_diameter_m: f64,
     /// Diameter of the bore.
     pub inner_diameter_m: f64,
-    /// Thickness of the plate; with a profile, from the bore to its first row.
+    /// Thickness of the plate, not the width of its kerf; with a profile, from the bore to its first row.
     pub thickness_m: f64,
     /// Thickness at ascending radii, linear between the rows and constant beyond the last. Two rows at one
     /// radius are a step, and so is a first row of another thickness. By default the thickness is uniform.

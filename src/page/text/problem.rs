@@ -227,8 +227,8 @@ const UNITS: [(&str, &str, &str); 13] = [
 /// Keys that users write for remarks; so are all that begin with an underscore.
 const REMARKS: [&str; 5] = ["comment", "comments", "description", "remark", "//"];
 
-/// Keys of earlier versions, and the keys that say the same now.
-const MOVED: [(&str, &str); 7] = [
+/// Keys that scenes do not have, and what to give in their place.
+const MOVED: [(&str, &str); 9] = [
     ("runup.force_n", "give it as side_force.force_n"),
     ("runup.angle_deg", "give it as side_force.angle_deg"),
     ("response.force_n", "give it as side_force.force_n"),
@@ -239,7 +239,11 @@ const MOVED: [(&str, &str); 7] = [
         "give it as side_force.oscillating_n, with the number of teeth as side_force.order",
     ),
     ("gap.force_n", "give it as side_force.force_n in the scene"),
+    ("blade.kerf_m", OF_PLATE),
+    ("blade.kerf_mm", OF_PLATE),
 ];
+
+const OF_PLATE: &str = "the model takes the plate, not the kerf: give blade.thickness_m";
 
 /// Smallest similarity, from 0 to 1, at which a known name is suggested for a misspelt one.
 const LIKENESS: f64 = 0.75;
