@@ -57,8 +57,9 @@ impl GrowthCurve {
             let turns = (slope(&pair[0]) < 0.0) != (slope(&pair[1]) < 0.0);
             if turns && to - from > SPEED_TOLERANCE * to {
                 let found = zero(numbers, ends, slope)?;
+                // A known point may be the extremum.
+                curve.extrema.push(found.speed_rad_per_s);
                 if ![from, to].contains(&found.speed_rad_per_s) {
-                    curve.extrema.push(found.speed_rad_per_s);
                     curve.points.push(found);
                 }
             }
@@ -128,4 +129,45 @@ pub fn between(
     }
     let sloped = found.unwrap_or((expected, points[0].slope));
     Ok(CurvePoint::new(speed_rad_per_s, sloped))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// λ² of growth g = 1 − (Ω − 2)²/4, largest at 2 rad/s.
+    struct Parabola;
+
+    impl Parabola {
+        fn at(speed: f64) -> CurvePoint {
+            let growth = 1.0 - 0.25 * (speed - 2.0).powi(2);
+            let slope = -growth * (speed - 2.0);
+            CurvePoint::new(speed, (c64::from(growth * growth), c64::from(slope)))
+        }
+    }
+
+    impl Numbers for Parabola {
+        fn plane(&self) -> Plane {
+            Plane::Squares
+        }
+
+        fn nearest(&self, speed: f64, _expected: c64) -> Result<Option<Sloped>, SpectrumError> {
+            let point = Self::at(speed);
+            Ok(Some((point.number, point.slope)))
+        }
+    }
+
+    /// The largest growth is found between the points, and where a point of the search happens to be it, as with a saw whose search
+    /// has a speed 1e-5 rpm beside the peak of a band.
+    #[test]
+    fn the_peak_may_be_a_known_point() {
+        for speeds in [[1.0, 2.0, 3.0], [1.0, 2.0 + 1e-13, 3.0], [1.0, 2.2, 3.0]] {
+            let known = speeds.map(Parabola::at);
+            let curve = GrowthCurve::new(&Parabola, &known).unwrap();
+            let peak = curve.peak([0, curve.points.len() - 1]);
+            assert!((peak.speed_rad_per_s - 2.0).abs() < 1e-9, "{peak:?}");
+            let growth = Plane::Squares.growth_per_s(peak.number);
+            assert!((growth - 1.0).abs() < 1e-12, "{growth}");
+        }
+    }
 }
