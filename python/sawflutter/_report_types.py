@@ -28,7 +28,7 @@ ShapeOccasion: TypeAlias = Literal["critical_speed", "divergence", "flutter", "o
 
 Accuracy: TypeAlias = Literal["draft", "design", "reference"]
 
-CutVerdict: TypeAlias = Literal["stable", "at_critical", "leaves_model", "unstable"]
+CutStability: TypeAlias = Literal["stable", "at_critical", "leaves_model", "unstable"]
 
 CutCriterion: TypeAlias = Literal["eigenvalues", "time_history", "moving_tooth_loads", "spline_reaction", "out_of_cut"]
 
@@ -1418,16 +1418,15 @@ class CutRun(Entry):
     tangential_n_per_tooth : Force against the rotation on each tooth.
     radial_n_per_tooth : Force towards the axis on each tooth.
     lateral_n_per_tooth : Force across the blade on each tooth.
-    answer : Whether the saw can run in the cut: no if a vibration grows; at risk at a critical
+    verdict : Whether the saw can run in the cut: no if a vibration grows; at risk at a critical
         speed, at more than 85 % of the first one, and where the rim moves by more than the
-        thickness of the blade or the deflection leaves the model.
-    past_critical_rpm : First critical speed, of the saw in the cut or out of it, if the speed
-        is more than the allowed share of it; else null.
-    verdict : The worst of the criteria; if no vibration grows, whether the deflection stays
+        thickness of the blade or the deflection leaves the model. Critical speeds are those of
+        the saw in the cut and out of it.
+    stability : The worst of the criteria; if no vibration grows, whether the deflection stays
         within the model, and the speed away from critical speeds.
     at_critical_rpm : Critical speed within 5 % of this speed, of the saw in the cut or out of
         it; null if there is none.
-    decided_by : Criterion of fastest growth among those with this verdict.
+    decided_by : Criterion of fastest growth among those with this stability.
     criteria : The result of each criterion.
     growth_per_s : Largest Re λ in the cut.
     frequency_hz : Frequency of the growing mode; of the largest oscillation if none grows.
@@ -1464,9 +1463,8 @@ class CutRun(Entry):
     tangential_n_per_tooth: float
     radial_n_per_tooth: float
     lateral_n_per_tooth: float
-    answer: Answer
-    past_critical_rpm: float | None = field(default=None)
-    verdict: CutVerdict
+    verdict: VerdictEntry
+    stability: CutStability
     at_critical_rpm: float | None = field(default=None)
     decided_by: CutCriterion
     criteria: tuple[CutCriterionEntry, ...]
@@ -3031,7 +3029,7 @@ class SizeReport(Entry):
     to : Last value that was tried.
     operating_rpm : Operating speed; null if it is the number itself.
     values : Values that were tried, ascending.
-    kept : Whether the saw keeps all limits at each of these values.
+    answers : Whether the saw can run at each of these values; null where it was refused.
     limits : Every limit, with its margin at each of these values.
     windows : Ranges of values in which the saw keeps all limits.
     answer : A value in the range that is nearest to the value of the scene; null if there is no
@@ -3055,7 +3053,7 @@ class SizeReport(Entry):
     to: float
     operating_rpm: float | None
     values: FloatArray
-    kept: BoolArray
+    answers: tuple[Answer, ...]
     limits: tuple[SizedLimit, ...]
     windows: tuple[SizedWindow, ...]
     answer: SizeAnswer | None
@@ -3367,7 +3365,7 @@ class SizeSizeReport(Entry):
     to : Last value that was tried.
     operating_rpm : Operating speed; null if it is the number itself.
     values : Values that were tried, ascending.
-    kept : Whether the saw keeps all limits at each of these values.
+    answers : Whether the saw can run at each of these values; null where it was refused.
     limits : Every limit, with its margin at each of these values.
     windows : Ranges of values in which the saw keeps all limits.
     answer : A value in the range that is nearest to the value of the scene; null if there is no
@@ -3391,7 +3389,7 @@ class SizeSizeReport(Entry):
     to: float
     operating_rpm: float | None
     values: FloatArray
-    kept: BoolArray
+    answers: tuple[Answer, ...]
     limits: tuple[SizedLimit, ...]
     windows: tuple[SizedWindow, ...]
     answer: SizeAnswer | None

@@ -91,7 +91,8 @@ class _BladeDict(TypedDict):
     """Diameter of the bore."""
 
     thickness_m: float
-    """Thickness of the plate; with a profile, from the bore to its first row."""
+    """Thickness of the plate, not the width of its kerf; with a profile, from the bore to its
+    first row."""
 
     material: MaterialDict
     """Linear elastic, isotropic material."""
@@ -964,10 +965,11 @@ class GapDict(TypedDict, total=False):
     rpm: float | None
     """Rotation speed; by default the operating speed of the scene."""
 
-    max_deviation_mm: float | None
-    """Upper limit of the deflection at the cut; the saws that keep it are counted."""
+    max_deviation_m: float | None
+    """Upper limit of the deflection at the cut; the saws that keep it are counted. By default
+    `limits.max_deviation_m` of the scene."""
 
-    amplitude_mm: float | None
+    amplitude_m: float | None
     """Amplitude of an oscillation at the guides, with whose mean stiffness the first critical
     speed is computed."""
 

@@ -1020,8 +1020,8 @@ class Scene(Drawn, Mapping[str, Value]):
 
 
 def keys(word: str = "", *, study: bool = False) -> str:
-    """The keys of a scene, or of a study, whose path contains a word, each with its unit, default,
-    usual range and meaning, as printed by ``sawflutter keys``.
+    """The keys of a scene, or of a study, with these words in their path or their text, each with its
+    unit, default, usual range and meaning, as printed by ``sawflutter keys``; "" if none has them.
     """
     return _native.keys(word, study)
 
