@@ -2,6 +2,7 @@
 
 use crate::model::scene::Quantity;
 use crate::page::figure::axis::raised;
+use crate::page::text::shown_to;
 
 /// Units of a scene that figures replace, and the units in their place.
 const HANDY: [(&str, FigureUnit); 2] = [
@@ -60,6 +61,16 @@ pub fn in_words(path: &str, value: f64) -> String {
         name(path),
         four_digits(factor * value)
     )
+}
+
+/// Significant digits of a value in a sentence.
+pub const DIGITS: usize = 4;
+
+/// Value and unit of a number with a given path in a sentence: "2.8 mm". The value is in the unit of the scene.
+pub fn with_unit(path: &str, value: f64) -> String {
+    let FigureUnit { symbol, factor } = unit(path);
+    let words = format!("{} {symbol}", shown_to(DIGITS, factor * value));
+    words.trim_end().to_owned()
 }
 
 /// A number with four significant digits; very small and large numbers have a power of ten.

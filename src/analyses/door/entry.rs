@@ -74,7 +74,7 @@ fn with_numbers<C: CommandOptions>(
             if !found.assumed.is_empty() {
                 let (key, words) = (block.key(), found.in_words());
                 assumed.push(format!(
-                    "the scene has no {key}; assumed beside what was given: {words} (typical values, whose sources the schema of scenes states)"
+                    "the scene has no {key}; assumed beside what was given: {words} (typical values; `sawflutter keys {key}` states their sources)"
                 ));
             }
             found.scene

@@ -50,6 +50,7 @@ impl Memory {
     /// # Errors
     /// The error of the system that cannot read or write the log.
     pub fn of(folder: &Path, inputs: &Value) -> io::Result<Self> {
+        std::fs::create_dir_all(folder)?;
         let path = folder.join(LOG);
         let text = match std::fs::read_to_string(&path) {
             Err(error) if error.kind() == io::ErrorKind::NotFound => String::new(),

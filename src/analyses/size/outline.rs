@@ -1,15 +1,13 @@
 //! The text of a sized number.
 
 use super::{SizeReport, SizedEach, SizedWindow};
-use crate::analyses::scene_number::{FigureUnit, unit};
+use crate::analyses::scene_number::{DIGITS, FigureUnit, unit, with_unit};
 use crate::analyses::verdict::Answer;
 use crate::page::outline::{Column, Outline, PERCENT, PLAIN, Table, Value};
 use crate::page::text::{capitalized, counted, shown, shown_to};
 
 /// Number of rows of the table.
 const ROWS: usize = 24;
-/// Significant digits of a value in a sentence.
-const DIGITS: usize = 4;
 
 pub fn outline(report: &SizeReport) -> Outline {
     let mut text = Outline::of(
@@ -93,9 +91,7 @@ pub fn outline(report: &SizeReport) -> Outline {
 
 /// A value in the unit of figures.
 pub fn of(report: &SizeReport, value: f64) -> String {
-    let FigureUnit { symbol, factor } = unit(report.path());
-    let words = format!("{} {symbol}", shown_to(DIGITS, factor * value));
-    words.trim_end().to_owned()
+    with_unit(report.path(), value)
 }
 
 /// The answer in one line.

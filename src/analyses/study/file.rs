@@ -3,6 +3,7 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
+use crate::analyses::scene_number::with_unit;
 use crate::model::scene::{RefusedValue, SceneError, SceneFile};
 use crate::page::text::{KeyedError, from_keyed_json};
 use crate::stability::AnalysisError;
@@ -140,24 +141,30 @@ pub enum DistributionFile {
     },
 }
 
-impl std::fmt::Display for ParameterFile {
-    fn fmt(&self, formatter: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        write!(formatter, "{} ", self.path)?;
+impl ParameterFile {
+    /// The number and how it varies: "blade.thickness_m ± 0.05 mm".
+    pub(super) fn in_words(&self) -> String {
+        let path = &self.path;
+        let shown = |value: f64| with_unit(path, value);
         match &self.distribution {
-            DistributionFile::Tolerance { plus_minus } => write!(formatter, "± {plus_minus}"),
-            DistributionFile::Uniform { from, to } => write!(formatter, "from {from} to {to}"),
+            DistributionFile::Tolerance { plus_minus } => {
+                format!("{path} ± {}", shown(*plus_minus))
+            }
+            DistributionFile::Uniform { from, to } => {
+                format!("{path} from {} to {}", shown(*from), shown(*to))
+            }
             DistributionFile::Normal {
                 mean,
                 standard_deviation,
                 truncated_at_deviations,
             } => {
-                let about = mean.map_or(String::new(), |mean| format!("about {mean}, "));
-                write!(
-                    formatter,
-                    "normal, {about}σ = {standard_deviation}, truncated at ± {truncated_at_deviations} σ"
+                let about = mean.map_or(String::new(), |mean| format!("about {}, ", shown(mean)));
+                let deviation = shown(*standard_deviation);
+                format!(
+                    "{path} normal, {about}σ = {deviation}, truncated at ± {truncated_at_deviations} σ"
                 )
             }
-            DistributionFile::Grid { values } => write!(formatter, "at {} values", values.len()),
+            DistributionFile::Grid { values } => format!("{path} at {} values", values.len()),
         }
     }
 }

@@ -3,6 +3,7 @@
 use super::{
     GapStatistics, Group, NumberStatistics, Passing, Reliability, SpeedStatistics, StudyReport,
 };
+use crate::analyses::scene_number;
 use crate::model::scene::Scene;
 use crate::page::outline::{
     Column, Fact, LENGTH, Outline, PERCENT, PLAIN, SPEED, Table, Value, shortened,
@@ -24,7 +25,7 @@ pub fn outline(report: &StudyReport) -> Outline {
     text.sentence(shortened(&report.study.name, crate::page::outline::WIDTH));
     text.heading(&saws, &report.condition);
     for entry in &report.study.parameters {
-        text.reason(entry.to_string());
+        text.reason(entry.in_words());
     }
     text.remarks("Unusual number", &report.unusual_numbers);
     if let Some(passing) = &report.all.passing {
@@ -210,12 +211,16 @@ fn worst(text: &mut Outline, report: &StudyReport) {
             "Lowest {name} speed: {:.1} rpm, saw {}",
             first.rpm, first.saw
         );
-        let numbers = report
-            .study
-            .parameters
-            .iter()
-            .zip(&first.values)
-            .map(|(parameter, value)| Fact::new(parameter.path.clone(), format!("{value}")));
+        let numbers =
+            report
+                .study
+                .parameters
+                .iter()
+                .zip(&first.values)
+                .map(|(parameter, value)| {
+                    let path = &parameter.path;
+                    Fact::new(path.clone(), scene_number::with_unit(path, *value))
+                });
         text.facts(title, numbers);
     }
 }

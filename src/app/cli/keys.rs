@@ -166,7 +166,7 @@ mod tests {
         };
         for (words, key) in [
             ("Kerf", "blade.thickness_m"),
-            ("feed speed", "cut.feed_m_per_s"),
+            ("feed board", "cut.feed_m_per_s"),
             ("thickness", "blade.thickness_m"),
         ] {
             assert_eq!(first(words), key, "{words}");

@@ -20,7 +20,8 @@ pub struct OutputFolder {
 
 impl OutputFolder {
     /// Creates the folder if it is missing, and writes a temporary file in it, so that a folder that cannot be
-    /// written is refused before the computation instead of after it.
+    /// written is refused before the computation instead of after it. A created folder is removed again until something is written
+    /// in it, so that a run that is interrupted leaves none.
     pub fn open(path: &Path) -> anyhow::Result<Self> {
         let refused = || {
             format!(
@@ -37,7 +38,26 @@ impl OutputFolder {
         };
         std::fs::create_dir_all(path).with_context(refused)?;
         tempfile::NamedTempFile::new_in(path).with_context(refused)?;
+        folder.remove_made();
         Ok(folder)
+    }
+
+    /// The folder, for what is kept in it during the run.
+    pub fn made(&self) -> anyhow::Result<&Path> {
+        let path = &self.path;
+        std::fs::create_dir_all(path)
+            .with_context(|| format!("cannot create the folder {}", path.display()))?;
+        Ok(path)
+    }
+
+    /// Removes the empty folders that this run has created.
+    fn remove_made(&self) {
+        for folder in &self.made {
+            // The system refuses to remove a folder that contains files.
+            if std::fs::remove_dir(folder).is_err() {
+                break;
+            }
+        }
     }
 
     /// Writes the files of one run together, see [`Writing::finish`].
@@ -47,7 +67,7 @@ impl OutputFolder {
 
     /// Writes the files of one run to the disk under temporary names.
     pub fn staged(&self, files: &[NamedFile]) -> anyhow::Result<Writing<'_>> {
-        let mut writing = self.begin();
+        let mut writing = self.begin()?;
         for (name, content) in files {
             writing.stage_bytes(name, content)?;
         }
@@ -55,14 +75,15 @@ impl OutputFolder {
     }
 
     /// Begins to write the files of one run together: all are on the disk before the first one gets its name.
-    pub fn begin(&self) -> Writing<'_> {
+    pub fn begin(&self) -> anyhow::Result<Writing<'_>> {
+        self.made()?;
         let turn = self.wait_for_turn();
         self.remove_leftovers();
-        Writing {
+        Ok(Writing {
             folder: self,
             _turn: turn,
             staged: Vec::new(),
-        }
+        })
     }
 
     /// Locks the folder, so that runs that write to it take turns. The system ends the lock of a run that is killed.
@@ -113,12 +134,7 @@ impl OutputFolder {
 /// A run that was refused or failed removes the empty folders that it has created.
 impl Drop for OutputFolder {
     fn drop(&mut self) {
-        for folder in &self.made {
-            // The system refuses to remove a folder that contains files.
-            if std::fs::remove_dir(folder).is_err() {
-                break;
-            }
-        }
+        self.remove_made();
     }
 }
 

@@ -86,7 +86,7 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<()> {
     let folder = arguments.output.folder()?;
     let shard = arguments.shard.unwrap_or(Shard::WHOLE);
     match &arguments.scheduler {
-        Some(address) => scheduler::compute(&study, folder.path(), address)?,
+        Some(address) => scheduler::compute(&study, folder.made()?, address)?,
         None => compute(&study, shard, &folder)?,
     }
     if shard != Shard::WHOLE {
@@ -133,7 +133,7 @@ fn run_merge(merge: &Merge) -> anyhow::Result<()> {
 
 /// Analyses the saws of a part that its log lacks, and logs each one as soon as it is done.
 pub fn compute(study: &Study, shard: Shard, folder: &OutputFolder) -> anyhow::Result<()> {
-    let mut log = Log::open(folder.path(), shard, study)?;
+    let mut log = Log::open(folder.made()?, shard, study)?;
     let (done, of) = (log.finished().done(), shard.count(study.count()));
     if done == of {
         return Ok(());
@@ -218,7 +218,7 @@ fn progress_bar(done: usize, of: usize) -> ProgressBar {
 
 /// Writes the tables while the logs are read, then figures and summary, and prints the summary.
 fn print(output: &Output, folder: &OutputFolder, rows: &Rows<'_>) -> anyhow::Result<()> {
-    let (mut writing, study) = (folder.begin(), rows.study());
+    let (mut writing, study) = (folder.begin()?, rows.study());
     let csv = writing.create("study.csv")?;
     #[cfg(feature = "parquet")]
     let parquet = writing.create("study.parquet")?;
