@@ -4,10 +4,11 @@
 use std::f64::consts::TAU;
 
 use faer::c64;
+use sawflutter::analyses::report::{self, DecidedSpeed};
 use sawflutter::model::plate::{Plate, Resolution};
 use sawflutter::model::scene::{
     Accuracy, GuideFile, InPlane, Mount, Parameter, RimFile, Scene, SpeedRange, ThicknessRow,
-    rad_per_s,
+    rad_per_s, rpm,
 };
 use sawflutter::modes::{SpectralModel, Strategy};
 use sawflutter::stability::{Analysis, InstabilityKind, Sensitivity};
@@ -229,6 +230,49 @@ fn the_flutter_speed_of_a_damped_saw_moves_as_reported() {
     let difference = (high - low) / (2.0 * share * speed);
     let off = (told - difference).abs();
     assert!(off < 1e-2 * difference.abs(), "{told} {difference}");
+}
+
+/// `report` and `analyze --sensitivity` of a saw with damped material give the changes of its flutter speed, and what usual tolerances of
+/// production take of it. Reference: the flutter speeds of analyses of the saw with one number moved. The angle of a single guide
+/// changes nothing.
+#[test]
+fn the_report_of_a_damped_saw_says_what_tolerances_take_of_its_flutter_speed() {
+    let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/scenes/gallery");
+    let scene = Scene::from_path(format!("{folder}/damped-material.json")).unwrap();
+    let scene = scene.edited(|saw| saw.accuracy = Accuracy::Draft).unwrap();
+    let flutter = |scene: &Scene| {
+        let analysis = Analysis::new(scene).unwrap();
+        analysis.flutter_speed_rad_per_s.unwrap()
+    };
+    let told = report::report(&scene, &report::Options::default(), &|_| ()).unwrap();
+    let sensitivities = &told.idling.sensitivities;
+    let own = flutter(&scene);
+    let share = 0.3;
+    let mut square = 0.0;
+    // Each tolerance in percent of the number: 2 mm of the radius, a tenth of the stiffness, a hundredth of the others.
+    for (path, tolerance) in [
+        ("blade.thickness_m", 1.0),
+        ("blade.material.density_kg_per_m3", 1.0),
+        ("blade.material.youngs_modulus_pa", 1.0),
+        ("guides[0].radius_m", 1.0),
+        ("guides[0].stiffness_n_per_m", 10.0),
+    ] {
+        let [low, high] = [-share, share].map(|share| flutter(&moved(&scene, path, share)));
+        let percent = 1e2 * (high - low) / (2.0 * share * own);
+        let found = sensitivities.iter().find(|one| one.parameter == path);
+        let found = found.unwrap().flutter_speed_percent.unwrap();
+        assert!(
+            (found / percent - 1.0).abs() < 1e-3,
+            "{path}: {found} {percent}"
+        );
+        square += (percent * tolerance).powi(2);
+    }
+    let mut speeds = told.speeds.iter();
+    let decided = speeds.find(|one| one.speed == DecidedSpeed::Flutter);
+    let found = decided.unwrap().tolerance_rpm.unwrap();
+    let expected = 1e-2 * square.sqrt() * rpm(own);
+    assert!((found / expected - 1.0).abs() < 1e-3, "{found} {expected}");
+    assert_eq!(told.raised, DecidedSpeed::Flutter);
 }
 
 /// Derivatives at an operating speed below and above the sweep, where the reduced models of the sweep end. Reference: differences of all
