@@ -81,6 +81,33 @@ class SlotsDict(_SlotsDict, total=False):
     allowed."""
 
 
+class _WaveFactorRowDict(TypedDict):
+    """Factors of the waves with a number of nodal diameters, relative to a plain blade of the
+    same dimensions. Waves that are not listed have the factors of the next listed ones with
+    more diameters, and beyond these the smallest of all."""
+
+    nodal_diameters: int
+    """Number of nodal diameters."""
+
+    bending: float
+    """Factor of the bending stiffness: the square of the frequency at rest over that of the
+    plain blade; of a split pair, of the lower one."""
+
+
+class WaveFactorRowDict(_WaveFactorRowDict, total=False):
+    """Factors of the waves with a number of nodal diameters, relative to a plain blade of the
+    same dimensions. Waves that are not listed have the factors of the next listed ones with
+    more diameters, and beyond these the smallest of all."""
+
+    rotation: float | None
+    """Factor of the stiffening by rotation, which raises the square of the frequency in the
+    frame of the blade with that of the speed. By default that of bending, which leaves critical
+    speeds of slotted blades some 1 to 3 % too high."""
+
+    split: float | None
+    """Distance of the two frequencies of a split pair at rest, relative to the lower one."""
+
+
 class _BladeDict(TypedDict):
     """An annular blade."""
 
@@ -116,6 +143,10 @@ class BladeDict(_BladeDict, total=False):
 
     slots: SlotsDict | None
     """Slots from the rim inwards, such as expansion slots. None by default."""
+
+    wave_factors: list[WaveFactorRowDict]
+    """Stiffness of waves against a plain blade, as measured or as another program computes it;
+    an alternative to `slots`."""
 
 
 class MountSplineDict(TypedDict):

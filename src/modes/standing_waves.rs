@@ -11,7 +11,7 @@
 //! to n and rises further, and no wave of more diameters stands still either. The search over n may stop there,
 //! however many minima ω/n has under membrane stress.
 //!
-//! Slots multiply K_b by a factor that depends on n, and the argument holds where the factor is the same for all further n: beyond those
+//! Slots multiply K_b by a factor that depends on n, factors of waves that were measured K_σ too, and the argument holds where the factor is the same for all further n: beyond those
 //! for which it is computed, it is the smallest of them. The search stops there at the earliest. That no wave of more diameters
 //! loses more to the slots is an assumption of the model.
 //!
@@ -25,7 +25,7 @@ use super::assembled_plate::SpeedLimit;
 use super::error::SpectrumError;
 use super::symmetric_pencil::singular_multiples;
 use crate::model::linalg::symmetric_eigenvalues;
-use crate::model::plate::{HarmonicBlock, Plate, SlottedBlade};
+use crate::model::plate::{HarmonicBlock, Plate};
 
 /// Critical speeds of the free blade of a plate, with as many nodal diameters as needed.
 #[derive(Debug, Clone, PartialEq)]
@@ -86,7 +86,7 @@ impl StandingWaves {
                 found.sort_by(|x, y| x.0.total_cmp(&y.0));
                 speeds = found.iter().flat_map(|(speed, _)| [*speed; 2]).collect();
             } else if let (Some(few), Some(top)) = (&previous, top)
-                && few.diameters >= even_from(plate)
+                && few.diameters >= plate.even_from()
                 && [0.0, top]
                     .into_iter()
                     .all(|speed| has_risen(few, &block, speed))
@@ -131,7 +131,7 @@ pub fn diameters_within(plate: &Plate, to_rad_per_s: f64, window_rad_per_s: f64)
         if !is_outside {
             most = block.diameters;
         } else if let Some(few) = &previous
-            && block.diameters > even_from(plate)
+            && block.diameters > plate.even_from()
             && own
                 .iter()
                 .zip(few)
@@ -230,11 +230,6 @@ fn body_frequencies(
         .into_iter()
         .map(|square| square.max(0.0).sqrt())
         .collect())
-}
-
-/// Number of nodal diameters from which on slots, if there are any, leave the same share of bending to all waves.
-fn even_from(plate: &Plate) -> usize {
-    plate.slotted().map_or(0, SlottedBlade::even_from)
 }
 
 /// Stiffness of the free blade for n, n + 1, …

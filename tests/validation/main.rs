@@ -42,5 +42,6 @@ mod spline;
 mod static_deflection;
 mod thickness_profile;
 mod washboarding;
+mod wave_factors;
 mod witness;
 mod zeros;

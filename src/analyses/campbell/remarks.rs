@@ -10,7 +10,7 @@ use crate::stability::{Analysis, CHARTED, Shortened, is_cut_short, usual_end};
 
 use super::certificate::BandCertificate;
 use super::pad_places::{beside_the_blade, overlapping};
-use super::slot_remarks::{loaded, passing, slotted};
+use super::slot_remarks::{factored, loaded, passing, slotted};
 
 /// Relative rounding error above which a frequency has fewer than six valid digits.
 const LEAST_DIGITS: f64 = 1e-6;
@@ -59,6 +59,10 @@ pub fn terms(scene: &Scene, plate: &Plate) -> Vec<String> {
     );
     add(plate.blade.rim.is_some(), "mass of teeth in M and K_sigma");
     add(plate.blade.slots.is_some(), "slots in K_b and K_sigma");
+    add(
+        plate.blade.wave_factors.is_some(),
+        "factors of waves in K_b and K_sigma",
+    );
     for (source, name) in [
         (MembraneSource::Heat, "heat K_m"),
         (MembraneSource::RollTension, "roll tension K_m"),
@@ -131,6 +135,7 @@ pub fn warnings(
         rolled_alone(scene),
         passing(scene, analysis),
         slotted(&analysis.model.plate),
+        factored(&analysis.model.plate.blade),
         loaded(scene),
     ];
     found.into_iter().flatten().collect()

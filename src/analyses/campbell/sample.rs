@@ -29,6 +29,7 @@ pub fn empty_report(name: &str) -> Report {
             profile: Vec::new(),
             rim: None,
             slots: None,
+            wave_factors: Vec::new(),
             teeth: None,
             material,
         },

@@ -1,7 +1,7 @@
 //! Remarks on slots: what the model makes of them, and what it does not cover.
 
 use crate::model::plate::Plate;
-use crate::model::scene::{Scene, SceneFile, SlotPassing, rpm};
+use crate::model::scene::{Blade, Scene, SceneFile, SlotPassing, rpm};
 use crate::page::text::shown_to;
 use crate::stability::Analysis;
 
@@ -10,7 +10,7 @@ const MIXED: f64 = 0.9;
 
 /// Names the blade for which an error is estimated, unless it is that of the scene.
 pub(super) fn of_model(scene: &SceneFile) -> &'static str {
-    if scene.blade.slots.is_some() {
+    if scene.blade.slots.is_some() || !scene.blade.wave_factors.is_empty() {
         " of the axisymmetric blade"
     } else {
         ""
@@ -49,6 +49,27 @@ pub(super) fn slotted(plate: &Plate) -> Option<String> {
     ))
 }
 
+/// Names the waves whose stiffness is given against that of a plain blade.
+pub(super) fn factored(blade: &Blade) -> Option<String> {
+    let factors = blade.wave_factors.as_ref()?;
+    let listed = factors.rows().iter().map(|row| row.diameters.to_string());
+    let listed: Vec<String> = listed.collect();
+    let widest = factors.rows().iter().filter(|row| row.split > 0.0);
+    let widest = widest.max_by(|x, y| x.split.total_cmp(&y.split));
+    let split = widest.map_or(String::new(), |row| {
+        format!(
+            "; pairs of waves are split at rest (n = {} by {} %), and critical speeds are those of the lower branch",
+            row.diameters,
+            shown_to(2, 100.0 * row.split)
+        )
+    });
+    Some(format!(
+        "waves of {} nodal diameters have the stiffness that blade.wave_factors give; others have the factors of the next listed ones with \
+         more diameters, and beyond these the smallest of all{split}",
+        listed.join(", ")
+    ))
+}
+
 /// Says what is not covered where slots pass guides.
 pub(super) fn passing(scene: &Scene, analysis: &Analysis) -> Option<String> {
     let where_covered = match scene.file().slot_passing()? {
@@ -57,6 +78,9 @@ pub(super) fn passing(scene: &Scene, analysis: &Analysis) -> Option<String> {
         }
         SlotPassing::Beside => {
             "a guide or wood lies beside the slots or close to their ends, where most speeds may grow: no speed is called stable"
+        }
+        SlotPassing::Unplaced => {
+            "no speed is called stable, since blade.wave_factors do not say where the slots are: give blade.slots"
         }
     };
     let computed = match &analysis.floquet {

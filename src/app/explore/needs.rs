@@ -53,7 +53,7 @@ const GUIDES: Condition = Condition::at("guides");
 const HELD: &[Condition] = &[GUIDES, Condition::with("mount.kind", "collar")];
 const NOT_HELD: &str = "This needs a guide or a collar that holds the blade.";
 
-/// Conditions of all parts and tasks that have one.
+/// Conditions of all parts and tasks that have one; all entries of one name must be satisfied.
 pub const NEEDS: &[Need] = &[
     Need {
         of: "spline",
@@ -86,9 +86,29 @@ pub const NEEDS: &[Need] = &[
         otherwise: "Slots of a blade with heat or tension are not modelled yet.",
     },
     Need {
+        of: "blade.slots",
+        any: &[Condition::without("blade.wave_factors")],
+        otherwise: "Factors of the waves stand in place of the slots.",
+    },
+    Need {
+        of: "blade.wave_factors[]",
+        any: &[Condition::without("blade.slots")],
+        otherwise: "The factors of the waves are computed from the slots.",
+    },
+    Need {
+        of: "blade.wave_factors[]",
+        any: &[Condition::without("membrane")],
+        otherwise: "Factors of waves of a blade with heat or tension are not modelled yet.",
+    },
+    Need {
         of: "membrane",
         any: &[Condition::without("blade.slots")],
         otherwise: "Heat and tension of a slotted blade are not modelled yet.",
+    },
+    Need {
+        of: "membrane",
+        any: &[Condition::without("blade.wave_factors")],
+        otherwise: "Heat and tension of a blade with factors of its waves are not modelled yet.",
     },
     Need {
         of: "place",

@@ -12,7 +12,7 @@ use crate::model::scene::{
     GuideControllerFile, GuideFile, GuideFilmFile, LimitsFile, ModeRatioRow, ProbeFile,
     ResidualStressRow, ResponseFile, RimFile, RollBandFile, Scene, SceneFile, SlotsFile,
     StraightEdgeFile, SweepFile, TemperatureFile, TemperatureRow, ThicknessRow, USUAL_MARGIN,
-    WoodFile, typical_block, typical_value,
+    WaveFactorRow, WoodFile, typical_block, typical_value,
 };
 
 /// A request for a part.
@@ -151,6 +151,10 @@ fn add_gap(scene: &mut SceneFile, guide: &str) -> Option<()> {
 const USUAL_SLOTS: u32 = 4;
 const SLOT_DEPTH: f64 = 0.2;
 
+/// Nodal diameters of the first wave whose stiffness is given, the lowest that can stand still, and that of a plain blade.
+const FIRST_FACTOR: u32 = 2;
+const PLAIN: f64 = 1.0;
+
 fn add_to_blade(scene: &mut SceneFile, part: &str) -> Option<()> {
     match part {
         "rim" => {
@@ -171,6 +175,16 @@ fn add_to_blade(scene: &mut SceneFile, part: &str) -> Option<()> {
                 width_m: None,
                 inclination_deg: None,
                 hole_diameter_m: None,
+            });
+        }
+        "wave_factors[]" => {
+            let rows = &mut scene.blade.wave_factors;
+            let next = rows.iter().map(|row| row.nodal_diameters + 1).max();
+            rows.push(WaveFactorRow {
+                nodal_diameters: next.unwrap_or(FIRST_FACTOR),
+                bending: PLAIN,
+                rotation: Some(PLAIN),
+                split: None,
             });
         }
         "profile[]" => {
@@ -286,10 +300,11 @@ fn add_to_membrane(scene: &mut SceneFile, part: &str) -> Option<()> {
 mod tests {
     use super::*;
     use crate::app::explore::examples::examples;
-    use crate::app::explore::needs::NEEDS;
+    use crate::app::explore::needs::{Condition, NEEDS};
 
-    const PARTS: [&str; 27] = [
+    const PARTS: [&str; 28] = [
         "blade.slots",
+        "blade.wave_factors[]",
         "limits",
         "response",
         "damping.mode_ratios[]",
@@ -318,12 +333,14 @@ mod tests {
         "mount spline",
     ];
 
+    /// Block of a list for which the page states what is needed.
+    fn block_of(part: &str) -> &str {
+        part.split_once('.').map_or(part, |(block, _)| block)
+    }
+
     fn lacks(scene: &SceneFile, path: &str) -> bool {
         let json = serde_json::to_value(scene).unwrap();
-        let Some(need) = NEEDS.iter().find(|need| need.of == path) else {
-            return false;
-        };
-        !need.any.iter().any(|condition| {
+        let is_met = |condition: &Condition| {
             let pointer = format!("/{}", condition.path.replace('.', "/"));
             let value = json.pointer(&pointer);
             let is_there = value.is_some_and(|value| !value.is_null());
@@ -331,7 +348,9 @@ mod tests {
                 return !is_there;
             }
             value.is_some_and(|value| condition.is.is_none_or(|is| value == is))
-        })
+        };
+        let mut own = NEEDS.iter().filter(|need| need.of == path);
+        own.any(|need| !need.any.iter().any(is_met))
     }
 
     /// Each part, and two parts one after the other, are accepted in each saw of the gallery.
@@ -358,9 +377,10 @@ mod tests {
                 if let Err(error) = Scene::try_from(made.clone()) {
                     panic!("{}: {first}: {error}", scene.name);
                 }
-                let is_slotted = made.blade.slots.is_some();
                 let lists = PARTS.iter().filter(|part| part.ends_with("[]"));
-                for second in lists.filter(|part| !(is_slotted && part.starts_with("membrane"))) {
+                for second in
+                    lists.filter(|part| !lacks(&made, block_of(part)) && !lacks(&made, part))
+                {
                     let error = Scene::try_from(with(&made, second)).err();
                     assert!(
                         error.is_none(),

@@ -8,6 +8,7 @@ use crate::model::scene::Blade;
 
 use super::radial::RadialBasis;
 use super::stress::CentrifugalStress;
+use super::wave_ratio::WaveRatio;
 
 /// Stiffness matrices of n nodal diameters, J × J, in 1/s² or dimensionless: the basis is scaled so that the
 /// mass matrix is the identity. They are the same for cos nθ and sin nθ. Those of n = 0 in a plate also have a row for each head of a
@@ -17,7 +18,7 @@ pub struct HarmonicBlock {
     /// Number of nodal diameters n.
     pub diameters: usize,
     /// K_b: ∫ D/ρh₀ [κ_r² + κ_θ² + 2ν κ_r κ_θ + 2(1−ν) κ_rθ²] r dr, in 1/s², with the reference thickness h₀
-    /// of the mass, times c_n of a slotted blade; and the clamp, k/ρh₀ a R′R′ at a, if it yields to a slope.
+    /// of the mass, and the clamp, k/ρh₀ a R′R′ at a, if it yields to a slope; times c_n of a slotted blade.
     pub bending: DMatrix<f64>,
     /// K_σ − N: ∫ h/h₀ [σ̂_rr R′R′ + n² σ̂_θθ RR/r²] r dr − n² δ, dimensionless (times Ω²).
     pub spin: DMatrix<f64>,
@@ -45,6 +46,7 @@ impl HarmonicBlock {
         let mut bending = DMatrix::zeros(size, size);
         let mut spin = DMatrix::from_diagonal_element(size, size, -n2);
         let mut area = (!blade.is_plain()).then(|| DMatrix::zeros(size, size));
+        let ratio = WaveRatio::of(blade, stress, diameters);
         let steep = stress.slotted().map(|slotted| slotted.stress.rule());
         for (r, w) in steep.as_ref().unwrap_or(basis.rule()).iter() {
             let f = basis.evaluate(diameters, r);
@@ -58,7 +60,7 @@ impl HarmonicBlock {
             let (tension_r, tension_t) = (stress.radial_m2(r), stress.hoop_m2(r));
             let thickness = blade.thickness_ratio(r);
             let specific_rigidity = specific_rigidity * thickness.powi(3);
-            let tensioned = w * r * thickness;
+            let tensioned = w * r * thickness * ratio.rotation;
             if let Some(area) = &mut area {
                 let value = DVector::from_column_slice(&f.value);
                 area.ger(w * r, &value, &value, 1.0);
@@ -82,9 +84,7 @@ impl HarmonicBlock {
             let specific = clamp * edge / blade.mass_per_area_kg_per_m2();
             bending.ger(specific, &slope, &slope, 1.0);
         }
-        if let Some(slotted) = stress.slotted() {
-            bending *= slotted.bending(diameters);
-        }
+        bending *= ratio.bending;
         let mut block = HarmonicBlock {
             diameters,
             bending,

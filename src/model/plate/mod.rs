@@ -30,6 +30,7 @@ mod resolution;
 mod slots;
 mod stress;
 mod stretching;
+mod wave_ratio;
 
 pub use contact::{Contact, ContactTerms};
 pub(crate) use contact::{GapPotential, PadPoint, pad_force, pad_points};

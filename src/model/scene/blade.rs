@@ -9,6 +9,7 @@ use super::SceneError;
 use super::rule::{needed_teeth, refuse};
 use super::slots::{Slots, SlotsFile};
 use super::thickness::{ThicknessProfile, ThicknessRow};
+use super::wave_factors::{WaveFactorRow, WaveFactors};
 use crate::page::text::shown;
 
 /// An annular blade.
@@ -35,6 +36,9 @@ pub struct BladeFile {
     /// Slots from the rim inwards, such as expansion slots. None by default.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub slots: Option<SlotsFile>,
+    /// Stiffness of waves against a plain blade, as measured or as another program computes it; an alternative to `slots`.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub wave_factors: Vec<WaveFactorRow>,
     /// Linear elastic, isotropic material.
     pub material: Material,
 }
@@ -107,6 +111,8 @@ pub struct Blade {
     pub(crate) rim: Option<RimMass>,
     /// Slots from the rim inwards.
     pub slots: Option<Slots>,
+    /// Factors of the waves against a plain blade.
+    pub wave_factors: Option<WaveFactors>,
     /// Material of the blade.
     pub material: Material,
     /// Boundary condition at r = a.

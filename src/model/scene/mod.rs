@@ -56,6 +56,7 @@ pub(crate) mod typical_block;
 mod unit;
 mod validation;
 mod washboarding;
+mod wave_factors;
 mod wood;
 
 pub use crate::page::text::FileError;
@@ -127,6 +128,7 @@ pub use teeth_in_cut::{TeethInCut, Tooth};
 pub use thickness::ThicknessRow;
 pub use washboarding::WashboardingFile;
 pub(crate) use washboarding::{MAX_CUTTING_STIFFNESS, Washboarding};
+pub use wave_factors::{WaveFactor, WaveFactorRow, WaveFactors};
 pub(crate) use wood::Wood;
 pub use wood::WoodFile;
 

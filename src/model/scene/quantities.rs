@@ -23,6 +23,8 @@ const DAMPING: Span = Span::closed(0.0, 1e7);
 /// Ten turns either way.
 const ANGLE: Span = Span::closed(-3600.0, 3600.0);
 const ARC: Span = Span::closed(1e-3, 360.0);
+/// Stiffness relative to that of a plain blade.
+const FACTOR: Span = Span::closed(0.1, 2.0);
 const SHARE: Span = Span::closed(0.0, 1.0);
 /// Rotation speed. Any blade above a diameter of a millimetre bursts long before its end.
 const SPEED: Span = Span::closed(0.0, 1e8);
@@ -45,7 +47,7 @@ const COEFFICIENT: Span = Span::closed(-1e60, 1e60);
 /// built: diameters from 50 mm (slitting saws) to 4 m (stone saws), materials from aluminium to tungsten carbide, guides from
 /// felt to steel.
 #[rustfmt::skip]
-pub static QUANTITIES: [Quantity; 121] = [
+pub static QUANTITIES: [Quantity; 125] = [
     q("blade.outer_diameter_m", "outer diameter", "m", LENGTH, 0.04, 5.0),
     q("blade.inner_diameter_m", "bore diameter", "m", LENGTH, 0.003, 2.0),
     q("blade.thickness_m", "thickness of the blade", "m", THICKNESS, 1e-4, 0.04),
@@ -63,6 +65,12 @@ pub static QUANTITIES: [Quantity; 121] = [
     q("blade.slots.width_m", "width of the slots", "m", Span::closed(0.0, 1e-3), 1e-5, 1e-3),
     q("blade.slots.inclination_deg", "inclination of the slots", "°", Span::closed(-20.0, 20.0), -20.0, 20.0),
     q("blade.slots.hole_diameter_m", "diameter of the slots' holes", "m", LENGTH_OR_NONE, 1e-3, 0.05),
+    // The largest basis has waves of up to 300 nodal diameters.
+    q("blade.wave_factors[].nodal_diameters", "number of nodal diameters", "", Span::closed(0.0, 300.0), 0.0, 60.0).of_kind(Kind::Count),
+    // Slots leave more than 0.3, and nothing that is fixed to a blade doubles its stiffness.
+    q("blade.wave_factors[].bending", "factor of the bending stiffness", "", FACTOR, 0.3, 1.1),
+    q("blade.wave_factors[].rotation", "factor of the stiffening by rotation", "", FACTOR, 0.3, 1.2),
+    q("blade.wave_factors[].split", "split of the pair of waves", "", SHARE, 1e-4, 0.5),
     // From rubber to ten times diamond.
     q("blade.material.youngs_modulus_pa", "Young's modulus", "Pa", Span::closed(1e7, 1e13), 4e10, 7.5e11),
     // The limits of an isotropic material.

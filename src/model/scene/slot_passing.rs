@@ -15,6 +15,8 @@ pub(crate) enum SlotPassing {
     Inside,
     /// A guide or the wood lies beside the slots, or close to their ends.
     Beside,
+    /// Factors of the waves stand in place of the slots, and do not say where these are.
+    Unplaced,
 }
 
 /// Distance of a guide from the ends of the slots from which on it is well inside, in m and relative to the radius of the rim.
@@ -31,22 +33,31 @@ impl SlotPassing {
             SlotPassing::Beside => {
                 "slots pass a guide or wood beside them or close to their ends, which may make grow what this model calls stable"
             }
+            SlotPassing::Unplaced => {
+                "slots may make grow what this model calls stable where they pass guides, and blade.wave_factors do not say where they are; give blade.slots"
+            }
         }
     }
 }
 
 impl SceneFile {
-    /// Where slots pass guides or the wood; `None` if the blade has no slots or nothing is fixed in space.
+    /// Where slots pass guides or the wood; `None` if the blade is plain or nothing is fixed in space.
     pub(crate) fn slot_passing(&self) -> Option<SlotPassing> {
-        let slots = self.blade.slots?;
-        let outer_m = 0.5 * self.blade.outer_diameter_m;
-        let inside_m = outer_m - slots.depth_m - WELL_INSIDE_M.max(WELL_INSIDE * outer_m);
+        let is_factored = self.blade.wave_factors.iter().any(|row| !row.is_plain());
+        if self.blade.slots.is_none() && !is_factored {
+            return None;
+        }
         let in_cut = self.cut.as_ref().filter(|cut| cut.chart_rpm.is_some());
         let in_wood = in_cut.is_some_and(|cut| cut.wood.is_some());
         let mut acting = self.guides.iter().filter(|guide| guide.acts()).peekable();
         if acting.peek().is_none() && !in_wood {
             return None;
         }
+        let Some(slots) = self.blade.slots else {
+            return Some(SlotPassing::Unplaced);
+        };
+        let outer_m = 0.5 * self.blade.outer_diameter_m;
+        let inside_m = outer_m - slots.depth_m - WELL_INSIDE_M.max(WELL_INSIDE * outer_m);
         let is_beside = in_wood || acting.any(|guide| guide.reach_m()[1] > inside_m);
         Some(if is_beside {
             SlotPassing::Beside
@@ -61,7 +72,7 @@ impl SceneFile {
         match self.slot_passing() {
             None => f64::INFINITY,
             Some(SlotPassing::Inside) => first_critical.unwrap_or(f64::INFINITY),
-            Some(SlotPassing::Beside) => 0.0,
+            Some(SlotPassing::Beside | SlotPassing::Unplaced) => 0.0,
         }
     }
 }

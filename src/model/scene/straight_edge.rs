@@ -70,6 +70,7 @@ impl StraightEdge {
                 inner_radius_m: bore,
                 bore: Bore::Free,
                 slots: None,
+                wave_factors: None,
                 clamp_n_m_per_rad_per_m: None,
                 ..*blade
             },

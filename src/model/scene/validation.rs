@@ -8,6 +8,7 @@ use super::rule::{MAX_GUIDES, refuse};
 use super::slots::{Slots, SlottedRing};
 use super::speed_range::check_rise;
 use super::thickness::ThicknessProfile;
+use super::wave_factors::WaveFactors;
 use super::{
     Blade, Bore, ExcitationLine, MeasuredRow, Mount, RefusedValue, Scene, SceneError, SceneFile,
 };
@@ -124,6 +125,7 @@ fn blade(file: &SceneFile) -> Result<Blade, SceneError> {
         profile: None,
         rim: None,
         slots: None,
+        wave_factors: None,
         material: typed.material,
         bore,
         clamp_n_m_per_rad_per_m: clamp,
@@ -145,6 +147,7 @@ fn blade(file: &SceneFile) -> Result<Blade, SceneError> {
             .slots
             .map(|slots| Slots::new(slots, &ring))
             .transpose()?,
+        wave_factors: WaveFactors::new(typed, file.membrane.is_some())?,
         ..plain
     })
 }

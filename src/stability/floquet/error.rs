@@ -8,6 +8,9 @@ pub enum NotComputed {
     /// The blade has no slots.
     #[error("the blade has no slots")]
     Plain,
+    /// Factors of its waves stand in place of its slots.
+    #[error("blade.wave_factors do not say where the slots are")]
+    Unplaced,
     /// Nothing is fixed in space.
     #[error("no guide acts on the blade")]
     Nothing,

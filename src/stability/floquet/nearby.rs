@@ -24,7 +24,12 @@ impl NearbyGrowth {
     /// [`NotComputed`], for a saw that the multipliers do not cover.
     pub fn new(scene: &Scene, plate: &Plate, speed_rad_per_s: f64) -> Result<Self, NotComputed> {
         if scene.file().blade.slots.is_none() {
-            return Err(NotComputed::Plain);
+            let is_plain = scene.blade().wave_factors.is_none();
+            return Err(if is_plain {
+                NotComputed::Plain
+            } else {
+                NotComputed::Unplaced
+            });
         }
         let blade = TurningBlade::of(&plate.blade).ok_or(NotComputed::NotFinite)?;
         let guided = GuidedBlade::new(&blade, scene, plate)?;

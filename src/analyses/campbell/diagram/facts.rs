@@ -52,7 +52,9 @@ fn not_covered(report: &Report) -> Option<String> {
         SlotPassing::Inside => {
             Some("slots pass guides: not certain above the first critical speed".to_owned())
         }
-        SlotPassing::Beside => Some("slots pass guides: not certain at any speed".to_owned()),
+        SlotPassing::Beside | SlotPassing::Unplaced => {
+            Some("slots pass guides: not certain at any speed".to_owned())
+        }
     }
 }
 

@@ -32,7 +32,8 @@ pub fn checks(text: &mut Outline, report: &Report) {
         ));
     }
     let blade = &report.scene.blade;
-    if blade.teeth.is_some_and(|teeth| teeth > 0) && blade.slots.is_none() {
+    let is_plain = blade.slots.is_none() && blade.wave_factors.is_empty();
+    if blade.teeth.is_some_and(|teeth| teeth > 0) && is_plain {
         text.sentence(PLAIN_BLADE);
     }
     text.details(|text| {

@@ -223,7 +223,8 @@ export class Form {
       await this.#putIn(`${path}[]`);
       this.#groupAt(fresh)?.toggleAttribute("open", true);
     } }));
-    return this.#group(path, `${name} (${parts.length})`, schema.description, "", ...parts, add);
+    const lacking = lacks(this.needs, `${path}[]`, this.state.scene);
+    return this.#group(path, `${name} (${parts.length})`, schema.description, lacking, ...parts, ...(lacking ? [] : [add]));
   }
 
   #variants(schema, path, value) {

@@ -45,8 +45,8 @@ const isThere = (value) => (Array.isArray(value) ? value.length > 0 : value !== 
 
 // Returns why a part cannot be added to this scene, or a task cannot be computed for it; empty if it can.
 export function lacks(needs, name, scene) {
-  const need = needs.find((one) => one.of === name);
   const fits = (value, { is, absent }) => (absent ? !isThere(value) : is === null ? isThere(value) : value === is);
   const has = (condition) => valuesAt(scene, condition.path).some((value) => fits(value, condition));
-  return need && !need.any.some(has) ? need.otherwise : "";
+  const unmet = needs.find((need) => need.of === name && !need.any.some(has));
+  return unmet?.otherwise ?? "";
 }
