@@ -64,7 +64,7 @@ impl Onsets {
         Self::on(chosen, scene)
     }
 
-    fn on(chosen: ChosenBasis, scene: &Scene) -> Result<Self, AnalysisError> {
+    pub(super) fn on(chosen: ChosenBasis, scene: &Scene) -> Result<Self, AnalysisError> {
         let ChosenBasis {
             saw,
             critical,

@@ -207,9 +207,9 @@ impl Study {
             critical_rad_per_s: &onsets.critical_rad_per_s,
             threshold_per_s,
             range_rad_per_s: SpeedRange::new(0.0, self.to_rad_per_s()),
-            covered_to_rad_per_s: scene
+            not_covered: scene
                 .file()
-                .covered_to(onsets.critical_rad_per_s.first().copied()),
+                .not_covered(onsets.critical_rad_per_s.first().copied()),
             floquet: None,
         };
         let gap = match (self.gap(), self.basis()) {

@@ -7,7 +7,7 @@ use serde::{Deserialize, Serialize};
 
 use super::SceneError;
 use super::rule::{needed_teeth, refuse};
-use super::slots::{Slots, SlotsFile};
+use super::slots::{Slots, SlotsFile, SplitBranch};
 use super::thickness::{ThicknessProfile, ThicknessRow};
 use crate::page::text::shown;
 
@@ -107,6 +107,8 @@ pub struct Blade {
     pub(crate) rim: Option<RimMass>,
     /// Slots from the rim inwards.
     pub slots: Option<Slots>,
+    /// Branch of the pairs that slots split.
+    pub(crate) split_branch: SplitBranch,
     /// Material of the blade.
     pub material: Material,
     /// Boundary condition at r = a.

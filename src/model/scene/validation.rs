@@ -5,7 +5,7 @@ use super::cut::Cut;
 use super::guide::guide;
 use super::membrane::Membrane;
 use super::rule::{MAX_GUIDES, refuse};
-use super::slots::{Slots, SlottedRing};
+use super::slots::{Slots, SlottedRing, SplitBranch};
 use super::speed_range::check_rise;
 use super::thickness::ThicknessProfile;
 use super::{
@@ -124,6 +124,7 @@ fn blade(file: &SceneFile) -> Result<Blade, SceneError> {
         profile: None,
         rim: None,
         slots: None,
+        split_branch: SplitBranch::default(),
         material: typed.material,
         bore,
         clamp_n_m_per_rad_per_m: clamp,
