@@ -83,7 +83,7 @@ impl HarmonicBlock {
             bending.ger(specific, &slope, &slope, 1.0);
         }
         if let Some(slotted) = stress.slotted() {
-            bending *= slotted.bending(diameters, blade.split_branch);
+            bending *= slotted.bending_on(diameters, blade.split_branch);
         }
         let mut block = HarmonicBlock {
             diameters,

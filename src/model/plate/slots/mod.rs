@@ -96,8 +96,13 @@ impl SlottedBlade {
         }
     }
 
+    /// c_n of the lower branch; for more diameters than were computed, the smallest one of all.
+    pub fn bending(&self, diameters: usize) -> f64 {
+        self.bending_on(diameters, SplitBranch::Lower)
+    }
+
     /// c_n of a branch; for more diameters than were computed, the smallest one of all.
-    pub(crate) fn bending(&self, diameters: usize, branch: SplitBranch) -> f64 {
+    pub(crate) fn bending_on(&self, diameters: usize, branch: SplitBranch) -> f64 {
         match (self.waves.get(diameters).map(Vec::as_slice), branch) {
             (Some([lower, .., upper]), SplitBranch::Mean) => 0.5 * (lower.bending + upper.bending),
             (Some([.., upper]), SplitBranch::Upper) => upper.bending,
