@@ -23,11 +23,12 @@ use super::options::AnalysisOptions;
 use super::room::check_room;
 use super::search_result::StabilityChart;
 use super::shortened::Shortened;
+use super::split_pairs::SplitPairs;
 use super::undamped::Depth;
 use super::undamped::RootLoci;
 use super::verdict::{Evidence, StabilityState, Verdict, flutter_onsets};
 use crate::model::plate::{LightGapError, Resolution, StraightEdgeReading};
-use crate::model::scene::{Accuracy, Scene, SceneError, SpeedRange, rpm};
+use crate::model::scene::{Accuracy, Scene, SceneError, SlotPassing, SpeedRange, rpm};
 use crate::modes::{DescribedMode, SpectralModel, SpectrumError, Strategy};
 
 /// Number of even speeds in the chart of a free blade, whose modes take little time.
@@ -101,8 +102,10 @@ pub struct Analysis {
     /// Why the sweep that the program chose ends earlier than usual, if the chart of the usual one was refused.
     pub shortened: Option<Shortened>,
     /// Growth of a slotted saw beside guides at and beside the operating speed, by Floquet multipliers, or why it was not computed; `None`
-    /// for other saws, without an operating speed, and where a band decides.
+    /// for other saws, and without an operating speed.
     pub floquet: Option<Result<NearbyGrowth, NotComputed>>,
+    /// Results of a slotted blade with other branches of its split pairs; `None` for other blades and for a sketch.
+    pub split_pairs: Option<SplitPairs>,
 }
 
 /// The light gap of a scene with a straight edge.
@@ -227,6 +230,7 @@ impl Analysis {
             straight_edge,
             shortened: None,
             floquet: None,
+            split_pairs: None,
             scene: scene.clone(),
             estimated_relative_error: Some(estimated_relative_error),
             estimates: Some(estimates),
@@ -251,6 +255,10 @@ impl Analysis {
 
     /// Adds the results that need the verdict or the estimated errors.
     fn completed(mut self, detail: Detail, listed: Option<Listed>) -> Result<Self, AnalysisError> {
+        if detail == Detail::Full {
+            let range = self.range_rad_per_s;
+            self.split_pairs = SplitPairs::of(&self.scene, &self.model, &self.chart, range)?;
+        }
         if let Some(speed) = self.scene.operating_rad_per_s() {
             self.look_at_operating(speed)?;
             self.look_at_slots(speed);
@@ -329,14 +337,16 @@ impl Analysis {
         Ok(())
     }
 
-    /// Computes the growth of a slotted saw beside guides at a speed, where no band decides.
+    /// Computes the growth of a slotted saw beside guides at a speed.
     pub(crate) fn look_at_slots(&mut self, speed_rad_per_s: f64) {
         self.floquet = None;
         if self.scene.file().slot_passing().is_none() {
             return;
         }
         let state = self.verdict(speed_rad_per_s).state;
-        if matches!(state, StabilityState::Stable | StabilityState::NotCovered) {
+        let is_unknown =
+            [StabilityState::OutsideSweep, StabilityState::NotDetermined].contains(&state);
+        if !is_unknown {
             let plate = &self.model.plate;
             self.floquet = Some(NearbyGrowth::new(&self.scene, plate, speed_rad_per_s));
         }
@@ -383,6 +393,17 @@ impl Analysis {
         critical.map(|c| c.speed_rad_per_s).collect()
     }
 
+    /// The hull of the bands of a guide well inside the slots, if it is known; else every speed at which slots matter.
+    fn not_covered(&self, first_critical_rad_per_s: Option<f64>) -> Vec<SpeedRange> {
+        let file = self.scene.file();
+        let is_inside = file.slot_passing() == Some(SlotPassing::Inside);
+        let pairs = self.split_pairs.as_ref().filter(|_| is_inside);
+        match pairs.and_then(|pairs| pairs.hull.clone()) {
+            Some(hull) => hull,
+            None => file.not_covered(first_critical_rad_per_s),
+        }
+    }
+
     pub(crate) fn evidence<'a>(&'a self, critical_rad_per_s: &'a [f64]) -> Evidence<'a> {
         let threshold_per_s = self.scene.flutter_threshold_per_s();
         // Without estimates of the bands nothing is known of their edges' errors, and none is asked for.
@@ -400,10 +421,7 @@ impl Analysis {
             critical_rad_per_s,
             threshold_per_s,
             range_rad_per_s: self.range_rad_per_s,
-            covered_to_rad_per_s: self
-                .scene
-                .file()
-                .covered_to(critical_rad_per_s.first().copied()),
+            not_covered: self.not_covered(critical_rad_per_s.first().copied()),
             floquet: self.floquet.and_then(Result::ok),
         }
     }

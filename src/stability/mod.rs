@@ -47,6 +47,7 @@ mod sample;
 mod search_result;
 mod sensitivity;
 mod shortened;
+mod split_pairs;
 #[cfg(test)]
 mod tuned_tests;
 mod undamped;
@@ -89,6 +90,7 @@ pub(crate) use root::{Look, bracketed};
 pub use search_result::{FoundBands, StabilityChart};
 pub use sensitivity::{Sensitivity, SensitivityError};
 pub use shortened::Shortened;
+pub use split_pairs::SplitPairs;
 pub(crate) use undamped::Depth;
 #[doc(hidden)]
 pub use undamped::undamped_bands;

@@ -67,7 +67,7 @@ impl Onsets {
         Self::on(chosen, scene)
     }
 
-    fn on(chosen: ChosenBasis, scene: &Scene) -> Result<Self, AnalysisError> {
+    pub(super) fn on(chosen: ChosenBasis, scene: &Scene) -> Result<Self, AnalysisError> {
         let ChosenBasis {
             saw,
             critical,
@@ -129,9 +129,9 @@ impl Onsets {
             critical_rad_per_s: &self.critical_rad_per_s,
             threshold_per_s,
             range_rad_per_s,
-            covered_to_rad_per_s: scene
+            not_covered: scene
                 .file()
-                .covered_to(self.critical_rad_per_s.first().copied()),
+                .not_covered(self.critical_rad_per_s.first().copied()),
             floquet: None,
         }
     }

@@ -65,15 +65,6 @@ impl StabilityState {
             .unwrap_or(StabilityState::Stable)
     }
 
-    /// The state at a speed of the sweep at which no band counts, if the model covers speeds up to another one.
-    pub(crate) fn of_none(speed: f64, covered_to: f64) -> Self {
-        if speed > covered_to {
-            StabilityState::NotCovered
-        } else {
-            StabilityState::Stable
-        }
-    }
-
     /// The state of a slotted saw beside guides by its Floquet multipliers.
     fn of_growth(growth: &FloquetGrowth, threshold_per_s: f64) -> Self {
         if growth.growth_per_s - growth.error_per_s >= threshold_per_s {
@@ -99,7 +90,7 @@ pub struct Verdict {
     pub undecided: Option<Edge>,
     /// Index of the critical speed within 5 % of the speed; of several, the nearest.
     pub critical: Option<usize>,
-    /// The growth by Floquet multipliers that decides, if no band does.
+    /// The growth by Floquet multipliers, if it decides.
     pub floquet: Option<FloquetGrowth>,
 }
 
@@ -116,9 +107,10 @@ pub struct Evidence<'a> {
     pub threshold_per_s: f64,
     /// Range of the search, in rad/s.
     pub range_rad_per_s: SpeedRange,
-    /// Speed up to which a saw without a band is stable, in rad/s: infinite unless slots pass guides.
-    pub covered_to_rad_per_s: f64,
-    /// Growth by Floquet multipliers at and beside a speed, if it was computed: there it decides in place of that speed.
+    /// Speeds at which a saw without a band that counts may be unstable all the same, because slots pass guides.
+    pub not_covered: Vec<SpeedRange>,
+    /// Growth by Floquet multipliers at and beside a speed, if it was computed: there it decides in place of the bands, unless it is too
+    /// close to the threshold to call.
     pub floquet: Option<NearbyGrowth>,
 }
 
@@ -148,20 +140,35 @@ impl Evidence<'_> {
         let is_determined = !self.has_failed;
         let worst = worst.filter(|_| is_determined);
         let undecided = undecided(self.edges(), speed_rad_per_s).filter(|_| is_determined);
-        let is_open = is_determined && undecided.is_none() && worst.is_none();
-        let floquet = self.floquet.filter(|nearby| {
-            is_open && around(&self.range_rad_per_s) && nearby.contains(speed_rad_per_s)
+        let is_analysed = around(&self.range_rad_per_s);
+        let nearby = self
+            .floquet
+            .filter(|nearby| is_determined && is_analysed && nearby.contains(speed_rad_per_s));
+        let by_floquet = nearby.map(|nearby| {
+            let growth = nearby.deciding(self.threshold_per_s);
+            (
+                growth,
+                StabilityState::of_growth(&growth, self.threshold_per_s),
+            )
         });
-        let floquet = floquet.map(|nearby| nearby.deciding(self.threshold_per_s));
-        let state = match worst {
-            _ if !is_determined && around(&self.range_rad_per_s) => StabilityState::NotDetermined,
+        let by_bands = worst.map(|(_, band, _)| StabilityState::within([band.kind]));
+        let is_open = undecided.is_none() && worst.is_none();
+        let by_floquet =
+            by_floquet.filter(|(_, state)| is_open || *state != StabilityState::NotCovered);
+        let (worst, undecided) = match by_floquet {
+            Some((_, StabilityState::Stable)) => (None, None),
+            Some(_) => (worst, None),
+            None => (worst, undecided),
+        };
+        let state = match (by_floquet, by_bands) {
+            _ if !is_determined && is_analysed => StabilityState::NotDetermined,
+            (Some((_, StabilityState::Flutter)), Some(state)) => state,
+            (Some((_, state)), _) => state,
             _ if undecided.is_some() => StabilityState::TooClose,
-            Some((_, band, _)) => StabilityState::within([band.kind]),
-            None if around(&self.range_rad_per_s) => match &floquet {
-                Some(growth) => StabilityState::of_growth(growth, self.threshold_per_s),
-                None => StabilityState::of_none(speed_rad_per_s, self.covered_to_rad_per_s),
-            },
-            None => StabilityState::OutsideSweep,
+            (None, Some(state)) => state,
+            _ if !is_analysed => StabilityState::OutsideSweep,
+            _ if self.not_covered.iter().any(around) => StabilityState::NotCovered,
+            _ => StabilityState::Stable,
         };
         Verdict {
             state,
@@ -169,24 +176,34 @@ impl Evidence<'_> {
             stretch: worst.map(|(_, _, stretch)| stretch),
             undecided,
             critical: critical_at(self.critical_rad_per_s, speed_rad_per_s),
-            floquet,
+            floquet: by_floquet.map(|(growth, _)| growth),
         }
     }
 
     /// Ranges of speed, in rad/s, in which slots pass guides and it is not known that no motion grows, or known that one does.
     pub(crate) fn not_passed(&self) -> Vec<[f64; 2]> {
-        let covered = self.covered_to_rad_per_s;
-        let Some(nearby) = &self.floquet else {
-            return vec![[covered, f64::INFINITY]];
-        };
-        let [from, to] = nearby.ends();
+        let open = self
+            .not_covered
+            .iter()
+            .flat_map(|range| self.beside_quiet(range.ends()));
+        let grows = self.floquet.filter(|_| self.quiet().is_none());
+        open.chain(grows.map(|nearby| nearby.ends())).collect()
+    }
+
+    /// The parts of a range, in rad/s, in which Floquet multipliers do not show that nothing grows.
+    pub(crate) fn beside_quiet(&self, [from, to]: [f64; 2]) -> impl Iterator<Item = [f64; 2]> {
+        let [before, after] = self.quiet().unwrap_or([to, to]);
+        let parts = [[from, to.min(before)], [from.max(after), to]];
+        parts.into_iter().filter(|[from, to]| from < to)
+    }
+
+    /// Speeds at which Floquet multipliers show that nothing grows, in rad/s.
+    fn quiet(&self) -> Option<[f64; 2]> {
+        let nearby = self.floquet.filter(|_| !self.has_failed)?;
         let growth = nearby.deciding(self.threshold_per_s);
         let state = StabilityState::of_growth(&growth, self.threshold_per_s);
-        if state == StabilityState::Stable && !growth.is_felt(self.threshold_per_s) {
-            vec![[covered, from], [covered.max(to), f64::INFINITY]]
-        } else {
-            vec![[from, to], [covered, f64::INFINITY]]
-        }
+        let is_quiet = state == StabilityState::Stable && !growth.is_felt(self.threshold_per_s);
+        is_quiet.then(|| nearby.ends())
     }
 
     /// The edges of the bands that count, in rad/s.
@@ -208,11 +225,21 @@ impl Evidence<'_> {
             .bands
             .iter()
             .flat_map(|band| band.counted.iter().copied());
+        // Where multipliers decide, the window has no more than their speeds, and bands do not matter.
+        let [counted, open]: [Vec<SpeedRange>; 2] = [counted.collect(), self.not_covered.clone()];
+        let is_among =
+            |ranges: &[SpeedRange]| ranges.iter().any(|range| range.contains(speed_rad_per_s));
+        let passed = verdict.floquet.and(self.floquet);
+        let passed = passed.filter(|_| is_among(&counted) || is_among(&open));
+        let counted = counted.into_iter().filter(|_| passed.is_none());
+        let open = open.into_iter().filter(|_| passed.is_none());
         let beside = |speed: &f64| {
             let margin = CRITICAL_MARGIN * speed;
             SpeedRange::new(speed - margin, speed + margin)
         };
-        let excluded = counted.chain(self.critical_rad_per_s.iter().map(beside));
+        let excluded = counted
+            .chain(open)
+            .chain(self.critical_rad_per_s.iter().map(beside));
         let window = excluded.fold(self.range_rad_per_s, |window, out| {
             let beside = if out.to_rad_per_s < speed_rad_per_s {
                 SpeedRange::new(out.to_rad_per_s, f64::INFINITY)
@@ -221,10 +248,6 @@ impl Evidence<'_> {
             };
             window.within(beside)
         });
-        // Beyond the speeds that the model covers a window has those for which multipliers were computed.
-        let passed = self
-            .floquet
-            .filter(|_| speed_rad_per_s > self.covered_to_rad_per_s);
         Some(passed.map_or(window, |nearby| {
             let [from, to] = nearby.ends();
             window.within(SpeedRange::new(from, to))
@@ -380,7 +403,7 @@ mod tests {
             critical_rad_per_s: critical,
             threshold_per_s: 0.25,
             range_rad_per_s: SpeedRange::new(0.0, 300.0),
-            covered_to_rad_per_s: f64::INFINITY,
+            not_covered: Vec::new(),
             floquet: None,
         }
     }

@@ -36,6 +36,7 @@ mod run_up;
 mod saws;
 mod sensitivity;
 mod shapes;
+mod slot_hull;
 mod slots;
 mod slots_beside_guides;
 mod spline;

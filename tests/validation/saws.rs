@@ -66,6 +66,7 @@ pub fn dense_analysis(
     Analysis {
         shortened: None,
         floquet: None,
+        split_pairs: None,
         model,
         range_rad_per_s: range,
         complete_to_rad_per_s: range.to_rad_per_s,

@@ -27,7 +27,7 @@ pub struct Row {
     pub rpm1500_hz: f64,
     pub rpm3000_hz: f64,
     pub rpm4500_hz: f64,
-    critical_rpm: Option<f64>,
+    pub critical_rpm: Option<f64>,
     ccx_rest_hz: f64,
     ccx_critical_rpm: Option<f64>,
 }

@@ -11,6 +11,7 @@ use super::in_cut::InCut;
 use super::membrane::BladeStress;
 use super::modes::{RestMode, Whirl};
 use super::speeds::{CriticalSpeed, InstabilityBand, OperatingPoint};
+use super::split_pairs::SplitPairs;
 use crate::analyses::verdict::Verdict;
 use crate::model::scene::{Accuracy, SceneFile};
 use crate::modes::SpectrumError;
@@ -48,6 +49,9 @@ pub struct Report {
     /// Bands of instability within the sweep, by onset; `certificate` gives the share of the sweep that is
     /// proven to have no others.
     pub instabilities: Vec<InstabilityBand>,
+    /// Critical speeds of upper branches, and speeds at which bands are not certain; absent for a blade without slots.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub split_pairs: Option<SplitPairs>,
     /// First critical speed, also above the sweep; null if the blade has none.
     pub first_critical_rpm: Option<f64>,
     /// Flutter speed: lowest speed at which flutter counts, see `counted_rpm` of the bands.

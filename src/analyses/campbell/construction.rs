@@ -15,6 +15,7 @@ use super::membrane::BladeStress;
 use super::modes::{HarmonicShape, HarmonicShare, RestMode};
 use super::remarks::{terms, warnings};
 use super::speeds::{CriticalSpeed, InstabilityBand, OperatingPoint};
+use super::split_pairs::SplitPairs;
 use crate::analyses::board_deviation::BoardDeviation;
 use crate::analyses::check::{judged, side_force_factor};
 use crate::model::plate::Plate;
@@ -65,6 +66,7 @@ impl Analysis {
             critical_speeds: critical,
             critical_speeds_without_damping: model.has_turning_damping(),
             instabilities: instabilities(analysis, &branches, scene.flutter_threshold_per_s()),
+            split_pairs: analysis.split_pairs.as_ref().map(SplitPairs::new),
             first_critical_rpm: analysis.first_critical_rpm(),
             flutter_rpm: analysis.flutter_speed_rad_per_s.map(rpm),
             first_merge_rpm: analysis.first_merge_rad_per_s.map(rpm),

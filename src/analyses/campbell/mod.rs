@@ -38,6 +38,7 @@ pub(crate) mod sample;
 pub(crate) mod sensitivity_chart;
 mod slot_remarks;
 mod speeds;
+mod split_pairs;
 mod verdict;
 mod vtu;
 
@@ -63,6 +64,7 @@ pub(crate) use self::outline::usable;
 pub(crate) use self::outline::{answer, caution, checks, outline};
 pub(crate) use self::remarks::{lifting_off, side_force_in_words};
 pub use self::speeds::{CriticalSpeed, InstabilityBand, OperatingPoint};
+pub use self::split_pairs::{SplitPairs, UpperCriticalSpeed};
 pub use self::verdict::Verdict;
 pub use self::vtu::{VTK_NAMES, VtkFile};
 pub use crate::stability::{ContradictedBands, MiscountedModes, Sensitivity};

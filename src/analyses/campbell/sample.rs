@@ -62,6 +62,7 @@ pub fn empty_report(name: &str) -> Report {
         critical_speeds_without_damping: false,
         critical_speeds: Vec::new(),
         instabilities: Vec::new(),
+        split_pairs: None,
         first_critical_rpm: None,
         flutter_rpm: None,
         first_merge_rpm: None,

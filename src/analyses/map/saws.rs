@@ -85,7 +85,7 @@ impl Map {
             critical_rad_per_s: &critical,
             threshold_per_s: scene.flutter_threshold_per_s(),
             range_rad_per_s: SpeedRange::new(0.0, self.study.to_rad_per_s()),
-            covered_to_rad_per_s: scene.file().covered_to(critical.first().copied()),
+            not_covered: scene.file().not_covered(critical.first().copied()),
             floquet: None,
         };
         let basis = self.study.basis();

@@ -58,7 +58,7 @@ fn divergence_counts_before_flutter() {
             critical_rad_per_s: &[],
             threshold_per_s: 0.25,
             range_rad_per_s: SpeedRange::new(0.0, rad_per_s(2000.0)),
-            covered_to_rad_per_s: f64::INFINITY,
+            not_covered: Vec::new(),
             floquet: None,
         };
         evidence.verdict(rad_per_s(rpm)).state

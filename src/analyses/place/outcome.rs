@@ -92,7 +92,10 @@ impl Question {
         let threshold = scene.flutter_threshold_per_s();
         let [flutter, _] = flutter_onsets(&bands, threshold);
         let flutter = flutter.map(|onset| onset.speed_rad_per_s);
-        let covered_to = scene.file().covered_to(critical_rad_per_s.first().copied());
+        let not_covered = scene
+            .file()
+            .not_covered(critical_rad_per_s.first().copied());
+        let is_never_covered = not_covered.iter().any(|range| range.from_rad_per_s == 0.0);
         // A search compares saws; the errors of edges are those of the answer's own analysis.
         let listed = bands
             .iter()
@@ -103,7 +106,7 @@ impl Question {
             critical_rad_per_s: &critical_rad_per_s,
             threshold_per_s: threshold,
             range_rad_per_s: self.range,
-            covered_to_rad_per_s: covered_to,
+            not_covered,
             floquet: None,
         };
         let around = demands.around_rad_per_s;
@@ -116,7 +119,7 @@ impl Question {
             .operating_rad_per_s()
             .is_some_and(|speed| evidence.verdict(speed).state == StabilityState::Stable);
         // A saw whose search failed keeps no limit that follows from its bands, and neither does one whose slots pass a guide.
-        let unknown = if certificate.has_failed() || covered_to == 0.0 {
+        let unknown = if certificate.has_failed() || is_never_covered {
             FAR_BEYOND
         } else {
             0.0

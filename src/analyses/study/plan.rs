@@ -226,7 +226,7 @@ impl Study {
             critical_rad_per_s: &[],
             threshold_per_s: 0.0,
             range_rad_per_s: SpeedRange::new(0.0, self.to_rad_per_s),
-            covered_to_rad_per_s: f64::INFINITY,
+            not_covered: Vec::new(),
             floquet: None,
         };
         let criteria = self.limits.map(|limits| {

@@ -98,15 +98,11 @@ fn excluded(judge: &Judge<'_>, limits: &[Criterion]) -> Vec<Excluded> {
     let rim = format!("rim speed of {} m/s", shown(limit));
     above(limit / judge.rim_radius_m, rim);
     let passed = found.not_passed().into_iter();
-    all.extend(
-        passed
-            .filter(|[from, to]| from < to)
-            .map(|[from, to]| Excluded {
-                from,
-                to,
-                by: "slots pass guides".to_owned(),
-            }),
-    );
+    all.extend(passed.map(|[from, to]| Excluded {
+        from,
+        to,
+        by: "slots pass guides".to_owned(),
+    }));
     let percent = shown(1e2 * CRITICAL_MARGIN);
     all.extend(found.critical_rad_per_s.iter().map(|critical| Excluded {
         from: (1.0 - CRITICAL_MARGIN) * critical,
@@ -124,6 +120,7 @@ fn bands(judge: &Judge<'_>) -> impl Iterator<Item = Excluded> {
     found.bands.iter().flat_map(move |band| {
         let weak = if band.counted.is_empty() { "weak " } else { "" };
         let stretches = band.to_avoid(sweep).into_iter();
+        let stretches = stretches.flat_map(|stretch| found.beside_quiet(stretch));
         stretches.map(move |[from, to]| Excluded {
             from,
             to,

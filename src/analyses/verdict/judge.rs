@@ -4,7 +4,7 @@ use super::criterion::STABILITY;
 use super::critical::{of_critical, of_margin, source};
 use super::words::{apart, by_floquet, too_close, typed_rpm};
 use super::{Answer, Criterion, LimitSource};
-use crate::model::scene::{Accuracy, LimitsFile, rpm};
+use crate::model::scene::{Accuracy, LimitsFile, rad_per_s, rpm};
 use crate::page::text::shown_to;
 use crate::stability::{Evidence, InstabilityKind, ListedBand, StabilityState};
 
@@ -87,7 +87,7 @@ impl Judge<'_> {
                         shown_to(2, found.error_per_s),
                         self.found.threshold_per_s
                     ),
-                    None => "not certain: slots pass guides, which the model does not cover at this speed".to_owned(),
+                    None => "unstable or not certain: slots pass guides, which the model does not cover at this speed".to_owned(),
                 };
                 (Answer::AtRisk, words, None)
             }
@@ -98,7 +98,7 @@ impl Judge<'_> {
                 );
                 (Answer::AtRisk, words, None)
             }
-            (_, Some(index), _) => {
+            (_, Some(index), _) if verdict.floquet.is_none() => {
                 let band = &found.bands[index];
                 (
                     Answer::No,
@@ -106,12 +106,12 @@ impl Judge<'_> {
                     Some(rpm(band.range.from_rad_per_s)),
                 )
             }
-            (StabilityState::Flutter, None, _) => {
+            (StabilityState::Flutter | StabilityState::Divergence, ..) => {
                 let words = verdict.floquet.as_ref().map(by_floquet);
                 let at = verdict.floquet.map(|growth| rpm(growth.speed_rad_per_s));
                 (Answer::No, words.unwrap_or_default(), at)
             }
-            _ => match weak() {
+            _ => match weak().filter(|_| verdict.floquet.is_none()) {
                 Some(band) => {
                     let threshold = found.threshold_per_s;
                     let words = format!("{}, less than {threshold} 1/s", grows(band));
@@ -182,7 +182,7 @@ impl Judge<'_> {
                 ..criterion
             };
         }
-        if criterion.is_kept() && asked_rpm > rpm(found.covered_to_rad_per_s) {
+        if criterion.is_kept() && self.is_open_below(rad_per_s(asked_rpm)) {
             return Criterion {
                 finding:
                     "not certain: slots pass guides, which the model does not cover up to this speed"
@@ -192,6 +192,12 @@ impl Judge<'_> {
             };
         }
         criterion
+    }
+
+    /// Whether some speed below another one is not covered.
+    fn is_open_below(&self, speed_rad_per_s: f64) -> bool {
+        let mut open = self.found.not_covered.iter();
+        open.any(|range| range.from_rad_per_s < speed_rad_per_s)
     }
 
     /// The rim speed, with the rotation speed at which the rim reaches its limit.

@@ -56,7 +56,11 @@ impl Saw {
             critical_rad_per_s: &critical,
             threshold_per_s: 0.25,
             range_rad_per_s: SpeedRange::new(0.0, rad_per_s(5000.0)),
-            covered_to_rad_per_s: rad_per_s(self.covered_to_rpm),
+            not_covered: Vec::from_iter(
+                self.covered_to_rpm
+                    .is_finite()
+                    .then(|| SpeedRange::new(rad_per_s(self.covered_to_rpm), f64::INFINITY)),
+            ),
             floquet: self.floquet,
         };
         let judge = Judge {
@@ -290,4 +294,28 @@ fn multipliers_decide_where_slots_pass_guides() {
     assert!(by_floquet(0.4, 0.1).at(1300.0).reason.starts_with(
         "a vibration grows by 0.4 ± 0.1 1/s at 1300 rpm while slots pass the guides, by Floquet multipliers"
     ));
+}
+
+/// A band of the axisymmetric blade from 1250 to 1350 rpm decides only where multipliers are too close to the threshold to call, and
+/// their speeds are allowed inside it.
+#[test]
+fn multipliers_decide_inside_a_band() {
+    for (growth, error, expected) in [
+        (-1.0, 0.1, (Answer::Yes, "none")),
+        (0.3, 0.1, (Answer::No, "flutter")),
+        (0.4, 0.1, (Answer::No, "flutter")),
+    ] {
+        let saw = Saw {
+            bands: vec![flutter(1250.0, 1350.0, 1.0, Some(1e-6))],
+            ..by_floquet(growth, error)
+        };
+        let verdict = saw.at(1300.0);
+        assert_eq!(said(&verdict), (Some(expected.0), expected.1), "{growth}");
+        let windows = &verdict.windows_rpm;
+        let is_inside = windows
+            .iter()
+            .any(|[from, to]| close(Some(*from), 1287.0) && close(Some(*to), 1313.0));
+        assert_eq!(is_inside, expected.0 == Answer::Yes, "{windows:?}");
+        assert_eq!(said(&saw.at(1345.0)), (Some(Answer::No), "flutter"));
+    }
 }

@@ -219,8 +219,10 @@ fn command(command: Option<Command>) -> anyhow::Result<bool> {
         Some(Command::Study(arguments)) => study::run(&arguments),
         Some(Command::Keys(arguments)) => return keys::run(&arguments),
         Some(Command::Schema(arguments)) => schema::run(&arguments),
-        Some(Command::Completions(arguments)) => shell::completions(&arguments),
-        Some(Command::Man) => shell::man(),
+        Some(Command::Completions(arguments)) => {
+            shell::completions(&arguments, Arguments::command())
+        }
+        Some(Command::Man) => shell::man(&Arguments::command()),
     }
     .map(|()| true)
 }

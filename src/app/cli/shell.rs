@@ -1,6 +1,6 @@
 //! `sawflutter completions` and `sawflutter man`: what shells know of the program.
 
-use clap::{Args, CommandFactory};
+use clap::{Args, Command};
 use clap_complete::Shell;
 
 use super::common::say;
@@ -21,17 +21,15 @@ pub struct Completions {
     shell: Shell,
 }
 
-/// Prints the completions of a shell.
-pub fn completions(arguments: &Completions) -> anyhow::Result<()> {
+/// Prints the completions of the program for a shell.
+pub fn completions(arguments: &Completions, mut program: Command) -> anyhow::Result<()> {
     let mut text = Vec::new();
-    let mut program = super::Arguments::command();
     clap_complete::generate(arguments.shell, &mut program, "sawflutter", &mut text);
     Ok(say(&String::from_utf8(text)?)?)
 }
 
 /// Prints the manual page: the program, and every command after it.
-pub fn man() -> anyhow::Result<()> {
-    let program = super::Arguments::command();
+pub fn man(program: &Command) -> anyhow::Result<()> {
     let mut text = Vec::new();
     clap_mangen::Man::new(program.clone()).render(&mut text)?;
     for command in program.get_subcommands() {

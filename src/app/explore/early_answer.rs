@@ -54,7 +54,7 @@ impl Ahead {
                 critical_rad_per_s: &critical,
                 threshold_per_s,
                 range_rad_per_s: interim.range_rad_per_s,
-                covered_to_rad_per_s: scene.file().covered_to(critical.first().copied()),
+                not_covered: scene.file().not_covered(critical.first().copied()),
                 floquet: None,
             };
             ahead.add_bands(bands, &evidence);

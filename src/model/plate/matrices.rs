@@ -60,6 +60,13 @@ impl Plate {
         self.spinning.slotted()
     }
 
+    /// Number of nodal diameters from which on the ratios of stiffness to a plain blade are the same for all waves.
+    pub fn even_from(&self) -> usize {
+        let given = self.blade.wave_factors.as_ref();
+        let given = given.map_or(0, |factors| factors.even_from());
+        given.max(self.slotted().map_or(0, |slots| slots.even_from()))
+    }
+
     /// Largest number n_max of nodal diameters.
     pub fn max_diameters(&self) -> usize {
         self.resolution.max_diameters

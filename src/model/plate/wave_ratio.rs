@@ -1,6 +1,5 @@
 //! Stiffness of a wave of the blade against that of a plain one.
 
-use super::Plate;
 use super::stress::CentrifugalStress;
 use crate::model::scene::Blade;
 
@@ -20,17 +19,8 @@ impl WaveRatio {
         let slotted = stress.slotted();
         WaveRatio {
             bending: given.map_or(1.0, |row| row.bending)
-                * slotted.map_or(1.0, |slots| slots.bending(diameters)),
+                * slotted.map_or(1.0, |slots| slots.bending_on(diameters, blade.split_branch)),
             rotation: given.map_or(1.0, |row| row.rotation),
         }
-    }
-}
-
-impl Plate {
-    /// Number of nodal diameters from which on the ratios to a plain blade are the same for all waves.
-    pub fn even_from(&self) -> usize {
-        let given = self.blade.wave_factors.as_ref();
-        let given = given.map_or(0, |factors| factors.even_from());
-        given.max(self.slotted().map_or(0, |slots| slots.even_from()))
     }
 }

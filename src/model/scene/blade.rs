@@ -7,7 +7,7 @@ use serde::{Deserialize, Serialize};
 
 use super::SceneError;
 use super::rule::{needed_teeth, refuse};
-use super::slots::{Slots, SlotsFile};
+use super::slots::{Slots, SlotsFile, SplitBranch};
 use super::thickness::{ThicknessProfile, ThicknessRow};
 use super::wave_factors::{WaveFactorRow, WaveFactors};
 use crate::page::text::shown;
@@ -113,6 +113,8 @@ pub struct Blade {
     pub slots: Option<Slots>,
     /// Factors of the waves against a plain blade.
     pub wave_factors: Option<WaveFactors>,
+    /// Branch of the pairs that slots split.
+    pub(crate) split_branch: SplitBranch,
     /// Material of the blade.
     pub material: Material,
     /// Boundary condition at r = a.

@@ -117,6 +117,7 @@ pub use setting::{Setting, number_in, number_of, numbers_of};
 pub use side_force::SideForceFile;
 pub(crate) use side_force::{OscillatingForce, SideForce, USUAL_SIDE_FORCE_N};
 pub(crate) use slot_passing::SlotPassing;
+pub(crate) use slots::SplitBranch;
 pub use slots::{Slots, SlotsFile};
 pub use span::Span;
 pub use speed_range::SpeedRange;

@@ -4,7 +4,7 @@ use super::runup::DEFAULT_PROBE_DEG;
 use super::{
     Accuracy, Blade, Cut, DampingFile, ExcitationLine, Guide, LimitsFile, Membrane,
     OscillatingForce, Point, RunUpFile, SceneError, SceneFile, SideForce, SpeedRange, SplineFile,
-    SweepFile, in_the_cut, rad_per_s, rpm,
+    SplitBranch, SweepFile, in_the_cut, rad_per_s, rpm,
 };
 
 /// A validated saw. It contains the scene as typed and the numbers derived from it, so that it cannot be
@@ -60,6 +60,13 @@ impl Scene {
                 to_rpm: rpm(range.to_rad_per_s),
             });
         })
+    }
+
+    /// The saw with another branch of the pairs of waves that its slots split.
+    pub(crate) fn on_branch(&self, branch: SplitBranch) -> Scene {
+        let mut saw = self.clone();
+        saw.blade.split_branch = branch;
+        saw
     }
 
     /// The saw with a Campbell diagram that excludes the forces of the cut.

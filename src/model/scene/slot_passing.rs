@@ -6,7 +6,7 @@
 //! 1e-3 does not hold, if the guide ends 30 mm inside the slots, and growth at most speeds if it lies beside them; above the
 //! first critical speed growth at speeds that it calls stable.
 
-use super::SceneFile;
+use super::{SceneFile, SpeedRange};
 
 /// Where slots pass guides or wood.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -66,13 +66,13 @@ impl SceneFile {
         })
     }
 
-    /// Speed up to which a saw that has no instability counts as stable, in the unit of its first critical speed: infinite unless
-    /// slots pass guides.
-    pub(crate) fn covered_to(&self, first_critical: Option<f64>) -> f64 {
-        match self.slot_passing() {
-            None => f64::INFINITY,
-            Some(SlotPassing::Inside) => first_critical.unwrap_or(f64::INFINITY),
-            Some(SlotPassing::Beside | SlotPassing::Unplaced) => 0.0,
-        }
+    /// Speeds at which a saw of which no listed band counts may be unstable all the same, because slots pass guides.
+    pub(crate) fn not_covered(&self, first_critical_rad_per_s: Option<f64>) -> Vec<SpeedRange> {
+        let from = match self.slot_passing() {
+            None => None,
+            Some(SlotPassing::Inside) => first_critical_rad_per_s,
+            Some(SlotPassing::Beside | SlotPassing::Unplaced) => Some(0.0),
+        };
+        Vec::from_iter(from.map(|from| SpeedRange::new(from, f64::INFINITY)))
     }
 }

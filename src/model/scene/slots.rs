@@ -37,6 +37,18 @@ pub struct Slots {
     pub depth_m: f64,
 }
 
+/// Which branch of the pairs of waves that slots split stands for both.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub(crate) enum SplitBranch {
+    /// The lower one, of which the critical speeds are the lower ones.
+    #[default]
+    Lower,
+    /// The mean of both squares of the frequency.
+    Mean,
+    /// The upper one.
+    Upper,
+}
+
 /// Depths of slots, in shares of the width of the moving ring.
 const DEPTHS: [f64; 2] = [0.005, 0.9];
 /// Least arc of the rim between two slots, in thicknesses of the blade and in widths of a slot.

@@ -5,7 +5,7 @@ use super::cut::Cut;
 use super::guide::guide;
 use super::membrane::Membrane;
 use super::rule::{MAX_GUIDES, refuse};
-use super::slots::{Slots, SlottedRing};
+use super::slots::{Slots, SlottedRing, SplitBranch};
 use super::speed_range::check_rise;
 use super::thickness::ThicknessProfile;
 use super::wave_factors::WaveFactors;
@@ -126,6 +126,7 @@ fn blade(file: &SceneFile) -> Result<Blade, SceneError> {
         rim: None,
         slots: None,
         wave_factors: None,
+        split_branch: SplitBranch::default(),
         material: typed.material,
         bore,
         clamp_n_m_per_rad_per_m: clamp,
@@ -147,7 +148,11 @@ fn blade(file: &SceneFile) -> Result<Blade, SceneError> {
             .slots
             .map(|slots| Slots::new(slots, &ring))
             .transpose()?,
-        wave_factors: WaveFactors::new(typed, file.membrane.is_some())?,
+        wave_factors: WaveFactors::new(
+            &typed.wave_factors,
+            typed.slots.is_some(),
+            file.membrane.is_some(),
+        )?,
         ..plain
     })
 }

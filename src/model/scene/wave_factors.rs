@@ -4,7 +4,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::rule::refuse;
-use super::{BladeFile, RefusedValue, SceneError};
+use super::{RefusedValue, SceneError};
 
 /// Factors of the waves with a number of nodal diameters, relative to a plain blade of the same dimensions. Waves that are not listed
 /// have the factors of the next listed ones with more diameters, and beyond these the smallest of all.
@@ -53,9 +53,12 @@ pub struct WaveFactors {
 
 impl WaveFactors {
     /// Validates the factors of a blade; `None` if there are none.
-    pub(super) fn new(typed: &BladeFile, has_membrane: bool) -> Result<Option<Self>, SceneError> {
+    pub(super) fn new(
+        listed: &[WaveFactorRow],
+        has_slots: bool,
+        has_membrane: bool,
+    ) -> Result<Option<Self>, SceneError> {
         let key = "blade.wave_factors";
-        let listed = &typed.wave_factors;
         if listed.is_empty() {
             return Ok(None);
         }
@@ -64,7 +67,7 @@ impl WaveFactors {
             let remedy = "waves of more diameters have the smallest factors listed";
             return Err(refuse(key, listed.len() as f64, allowed, remedy));
         }
-        if typed.slots.is_some() {
+        if has_slots {
             let allowed = "left out beside blade.slots, from which such factors are computed";
             let remedy =
                 "leave out blade.slots to use these factors, or blade.wave_factors to compute them";

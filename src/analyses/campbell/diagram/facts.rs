@@ -48,7 +48,15 @@ fn not_covered(report: &Report) -> Option<String> {
     if let (Some(_), Some(rpm)) = (&report.verdict.floquet, report.verdict.rpm) {
         return Some(format!("slots pass guides: certain at {rpm:.0} rpm alone"));
     }
+    let hull = report
+        .split_pairs
+        .as_ref()
+        .and_then(|pairs| pairs.not_certain_rpm.as_ref());
     match passing {
+        SlotPassing::Inside if hull.is_some() => {
+            let first = hull.and_then(|ranges| ranges.first());
+            first.map(|[from, _]| format!("slots pass guides: not certain from {from:.0} rpm"))
+        }
         SlotPassing::Inside => {
             Some("slots pass guides: not certain above the first critical speed".to_owned())
         }

@@ -12,7 +12,7 @@ pub use answer::usable;
 pub use answer::{answer, caution};
 pub use checks::checks;
 
-use super::Report;
+use super::{Report, SplitPairs};
 use crate::model::scene::BladeFile;
 use crate::page::outline::{Column, FREQUENCY, Outline, PERCENT, PLAIN, SPEED, Table};
 
@@ -36,6 +36,13 @@ pub fn outline(report: &Report) -> Outline {
     }
     critical_speeds(&mut text, report);
     bands::bands(&mut text, report);
+    if let Some(words) = report
+        .split_pairs
+        .as_ref()
+        .and_then(SplitPairs::hull_in_words)
+    {
+        text.sentence(words);
+    }
     crossings(&mut text, report);
     influences::rolled(&mut text, report);
     influences::straight_edge(&mut text, report);
@@ -132,6 +139,13 @@ fn critical_speeds(text: &mut Outline, report: &Report) {
     });
     let table = Table::new(title, columns).in_file("report.json");
     text.table(table.with_rows(rows));
+    if let Some(words) = report
+        .split_pairs
+        .as_ref()
+        .and_then(SplitPairs::upper_in_words)
+    {
+        text.sentence(words);
+    }
 }
 
 /// Adds the crossings of multiples of the rotation speed with natural frequencies, if the scene requests multiples.

@@ -6,7 +6,7 @@
 //! split into two branches. The stress of rotation is that of a plane with the same cuts, of which the mean around the circle is
 //! taken (`stress`): slot faces carry no traction, so that the mean stresses fulfil the axisymmetric equilibrium.
 //!
-//! The blade of the analysis remains axisymmetric, with c_n K_b of the lower branch in place of K_b, and the mean stress in K_σ. Measured
+//! The blade of the analysis remains axisymmetric, with c_n K_b of the lower branch, or of another [`SplitBranch`], in place of K_b, and the mean stress in K_σ. Measured
 //! against a plate with cuts that turns, critical speeds of n = 2 to 5 are within 0.7 % (docs/explanation/model.md).
 //!
 //! Beside guides, which are fixed in space while slots turn, the modes of the slotted blade itself are needed, in its own frame and in its
@@ -29,7 +29,7 @@ mod waves;
 
 use std::sync::{Arc, Mutex, PoisonError};
 
-use crate::model::scene::{Blade, Slots};
+use crate::model::scene::{Blade, Slots, SplitBranch};
 use mesh::Mesh;
 use plane::PlaneStress;
 pub use stress::MeanStress;
@@ -58,6 +58,10 @@ impl SlottedBlade {
     pub fn of(blade: &Blade) -> Option<Arc<Self>> {
         static LAST: Mutex<Vec<(Blade, Arc<SlottedBlade>)>> = Mutex::new(Vec::new());
         let slots = blade.slots?;
+        let blade = &Blade {
+            split_branch: SplitBranch::default(),
+            ..*blade
+        };
         let last = || LAST.lock().unwrap_or_else(PoisonError::into_inner);
         let known = last()
             .iter()
@@ -94,8 +98,27 @@ impl SlottedBlade {
 
     /// c_n of the lower branch; for more diameters than were computed, the smallest one of all.
     pub fn bending(&self, diameters: usize) -> f64 {
-        let own = self.waves.get(diameters).and_then(|own| own.first());
-        own.map_or(self.beyond, |branch| branch.bending)
+        self.bending_on(diameters, SplitBranch::Lower)
+    }
+
+    /// c_n of a branch; for more diameters than were computed, the smallest one of all.
+    pub(crate) fn bending_on(&self, diameters: usize, branch: SplitBranch) -> f64 {
+        match (self.waves.get(diameters).map(Vec::as_slice), branch) {
+            (Some([lower, .., upper]), SplitBranch::Mean) => 0.5 * (lower.bending + upper.bending),
+            (Some([.., upper]), SplitBranch::Upper) => upper.bending,
+            (Some([lower, ..]), _) => lower.bending,
+            _ => self.beyond,
+        }
+    }
+
+    /// Largest ratio of frequencies of both branches of a pair, on up to so many diameters; 1 if none is split.
+    pub(crate) fn widest_split(&self, most_diameters: usize) -> f64 {
+        let ratios = self.waves.iter().take(most_diameters + 1).skip(2);
+        let ratios = ratios.filter_map(|own| match own.as_slice() {
+            [lower, .., upper] => Some((upper.bending / lower.bending).sqrt()),
+            _ => None,
+        });
+        ratios.fold(1.0, f64::max)
     }
 
     /// Number of nodal diameters from which on c_n is the same for all.
