@@ -28,6 +28,14 @@ pub struct SlotsFile {
     pub hole_diameter_m: Option<f64>,
 }
 
+impl SlotsFile {
+    /// Angles of the slots at the moment at which one of them is at 0°.
+    pub(crate) fn angles_rad(&self) -> impl Iterator<Item = f64> + use<> {
+        let pitch = std::f64::consts::TAU / f64::from(self.count);
+        (0..self.count).map(move |k| f64::from(k) * pitch)
+    }
+}
+
 /// Validated slots.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Slots {

@@ -1,4 +1,4 @@
-//! A deflected blade: areas between levels of the deflection, nodal lines, edges and guides.
+//! A deflected blade: areas between levels of the deflection, nodal lines, edges, slots and guides.
 
 use std::f64::consts::TAU;
 
@@ -11,6 +11,7 @@ use crate::page::figure::style::{BACKWARD, Colour, FORWARD, HAIRLINE, INK, QUIET
 pub const RADIUS: f64 = 108.0;
 pub const NODAL_WIDTH: f64 = 1.3;
 pub const GUIDE_WIDTH: f64 = 2.2;
+pub const SLOT_WIDTH: f64 = 3.4;
 /// Number of tiles around the blade.
 pub const ANGLES: usize = 72;
 /// Tiles have corners at every fourth radius of a report.
@@ -63,6 +64,12 @@ pub fn draw(sheet: &mut Sheet, centre: [f64; 2], report: &Report, shape: &EventS
     {
         let circle = angles.iter().map(|a| on_sheet(*r, *a));
         sheet.line(circle, Stroke::solid(QUIET, HAIRLINE));
+    }
+    if let Some(slots) = &report.scene.blade.slots {
+        for angle in slots.angles_rad() {
+            let ends = [outer - slots.depth_m, outer].map(|r| on_sheet(r, angle));
+            sheet.line(ends, Stroke::solid(QUIET, SLOT_WIDTH));
+        }
     }
     for guide in &report.scene.guides {
         draw_guide(sheet, guide, RADIUS / outer, centre);

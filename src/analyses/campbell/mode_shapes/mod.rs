@@ -3,6 +3,7 @@
 mod blade;
 
 use super::{EventShape, Report, ShapeOccasion};
+use crate::model::scene::SceneFile;
 use crate::page::figure::canvas::{Anchor, Lettering, Sheet};
 use crate::page::figure::heading;
 use crate::page::figure::items::{Heat, Item};
@@ -12,7 +13,7 @@ use crate::page::figure::style::{
     BETWEEN_FACTS, INK, LABEL_SIZE, MARGIN, QUIET, Weight, broken, shorten,
 };
 use crate::page::figure::tidiness::tidy;
-use blade::{GUIDE_WIDTH, NODAL_WIDTH, colour};
+use blade::{GUIDE_WIDTH, NODAL_WIDTH, SLOT_WIDTH, colour};
 
 /// Number of panels in a row.
 const COLUMNS: usize = 4;
@@ -47,7 +48,7 @@ pub fn sheet(report: &Report) -> Option<Sheet> {
         panel(&mut sheet, corner, report, shape);
     }
     let at = [MARGIN, height - 38.0];
-    let samples = samples(!report.scene.guides.is_empty());
+    let samples = samples(&report.scene);
     key::draw(&mut sheet, &samples, at, width - 2.0 * MARGIN);
     Some(tidy(sheet))
 }
@@ -153,10 +154,14 @@ fn shares(shape: &EventShape) -> String {
     format!("n = {}", shares.collect::<Vec<_>>().join(", "))
 }
 
-fn samples(has_guides: bool) -> Vec<Item> {
+fn samples(scene: &SceneFile) -> Vec<Item> {
     let side = |of: f64, name| Item::Heat(Heat::class([&[], &[]], |_, _| false, colour(of), name));
     let line = |width, name| Item::line_sample(width, false, Hue::Ink, name);
+    let has_guides = !scene.guides.is_empty();
     let guide = has_guides.then(|| line(GUIDE_WIDTH, "guide"));
+    let is_slotted = scene.blade.slots.is_some();
+    let slot = is_slotted
+        .then(|| Item::line_sample(SLOT_WIDTH, false, Hue::Quiet, "slot, at this moment"));
     let nodal = "nodal line, of a wave that travels at this moment";
     [
         side(1.0, "towards the viewer"),
@@ -164,6 +169,7 @@ fn samples(has_guides: bool) -> Vec<Item> {
         line(NODAL_WIDTH, nodal),
     ]
     .into_iter()
+    .chain(slot)
     .chain(guide)
     .collect()
 }
@@ -171,7 +177,7 @@ fn samples(has_guides: bool) -> Vec<Item> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::model::scene::{Accuracy, Scene};
+    use crate::model::scene::{Accuracy, Scene, SlotsFile};
     use crate::page::figure::canvas::Mark;
     use crate::page::figure::tidiness::texts;
     use crate::stability::Analysis;
@@ -214,7 +220,21 @@ mod tests {
         );
         let mut free = report.clone();
         free.scene.guides.clear();
+        free.scene.blade.slots = Some(SlotsFile {
+            count: 7,
+            depth_m: 0.05,
+            width_m: None,
+            inclination_deg: None,
+            hole_diameter_m: None,
+        });
+        let slotted = super::sheet(&free).unwrap();
+        assert!(!all.contains(&"slot, at this moment"));
+        assert!(texts(&slotted).contains(&"slot, at this moment"));
+        free.scene.blade.slots = None;
         let without_guides = super::sheet(&free).unwrap();
+        // Each panel has seven lines more, and the key one.
+        let more = slotted.marks().len() - without_guides.marks().len();
+        assert!(more >= 7 * shown(&free.shapes).len(), "{more}");
         assert!(!texts(&without_guides).contains(&"guide"));
         let without = Report {
             shapes: Vec::new(),

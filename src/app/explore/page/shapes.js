@@ -30,8 +30,15 @@ function ellipse(a, b) {
 export function ground({ blade, mount }) {
   const [a, b] = [0.5 * blade.inner_diameter_m, 0.5 * blade.outer_diameter_m];
   const collar = mount.kind === "collar" ? [["collar", circle(0.5 * mount.diameter_m) + circle(a)]] : [];
-  const parts = [["plate", toothed(b, blade.teeth ?? 0) + circle(a)], ["bore", circle(a)], ...collar];
+  const slits = blade.slots ? [["slot", cuts(b, blade.slots)]] : [];
+  const parts = [["plate", toothed(b, blade.teeth ?? 0) + circle(a)], ["bore", circle(a)], ...collar, ...slits];
   return parts.map(([name, d]) => drawn("path", { class: name, d, "fill-rule": "evenodd" }));
+}
+
+// Path of the slots at the moment at which one of them is at 0°.
+function cuts(b, { count, depth_m }) {
+  const ends = (angle) => [b, b - depth_m].map((r) => polar(r, angle).join(" ")).join("L");
+  return Array.from({ length: count }, (_, k) => `M${ends((360 * k) / count)}`).join("");
 }
 
 // Path of a pad about its centre.
