@@ -348,8 +348,7 @@ class VerdictEntry(Entry):
     windows_rpm : All ranges of speed in the sweep with the answer yes.
     limits : Every limit, with its result at the operating speed; empty without one.
     floquet : Growth of a slotted saw beside guides, by Floquet multipliers; absent for other
-        saws, without an operating speed, where a band decides, and for guides that they do not
-        cover.
+        saws, without an operating speed, and for guides that they do not cover.
     """
 
     answer: Answer | None
@@ -988,6 +987,39 @@ class Sensitivity(Entry):
 
 
 @dataclass(frozen=True, eq=False, repr=False, kw_only=True)
+class UpperCriticalSpeed(Entry):
+    """A critical speed of upper branches.
+
+    Attributes
+    ----------
+    rpm : Rotation speed.
+    name : The wave that stands still.
+    """
+
+    rpm: float
+    name: str
+
+
+@dataclass(frozen=True, eq=False, repr=False, kw_only=True)
+class SplitPairs(Entry):
+    """Results of a slotted blade with other branches of its split pairs than the lower one, for
+    which the critical speeds and bands of the report hold.
+
+    Attributes
+    ----------
+    upper_critical_speeds : Critical speeds within the sweep with the upper branch of every
+        pair, without those that both branches share; ascending.
+    not_certain_rpm : Speeds at which slots pass guides and the saw is unstable or not certain:
+        the filled hull of the bands with the lower branch, the mean and the upper branch, and 1
+        % beside it. It is no exact result, which only the Floquet multipliers of `verdict` are.
+        Null if nothing is fixed in space, and if the search for bands failed.
+    """
+
+    upper_critical_speeds: tuple[UpperCriticalSpeed, ...]
+    not_certain_rpm: FloatArray | None
+
+
+@dataclass(frozen=True, eq=False, repr=False, kw_only=True)
 class CampbellReport(Entry):
     """Report of an analysis (report.json).
 
@@ -1034,6 +1066,8 @@ class CampbellReport(Entry):
     sensitivities : Derivatives of critical speeds and onsets by numbers of the scene, on
         request.
     warnings : Remarks on the validity of the result.
+    split_pairs : Critical speeds of upper branches, and speeds at which bands are not certain;
+        absent for a blade without slots.
     """
 
     sawflutter: str
@@ -1064,6 +1098,7 @@ class CampbellReport(Entry):
     membrane: Membrane | None
     sensitivities: tuple[Sensitivity, ...]
     warnings: tuple[str, ...]
+    split_pairs: SplitPairs | None = field(default=None)
 
 
 @dataclass(frozen=True, eq=False, repr=False, kw_only=True)
@@ -2637,6 +2672,8 @@ class ReportCampbellReport(Entry):
     sensitivities : Derivatives of critical speeds and onsets by numbers of the scene, on
         request.
     warnings : Remarks on the validity of the result.
+    split_pairs : Critical speeds of upper branches, and speeds at which bands are not certain;
+        absent for a blade without slots.
     """
 
     sawflutter: str
@@ -2667,6 +2704,7 @@ class ReportCampbellReport(Entry):
     membrane: Membrane | None
     sensitivities: tuple[Sensitivity, ...]
     warnings: tuple[str, ...]
+    split_pairs: SplitPairs | None = field(default=None)
 
 
 @dataclass(frozen=True, eq=False, repr=False, kw_only=True)
