@@ -393,9 +393,13 @@ impl Analysis {
         critical.map(|c| c.speed_rad_per_s).collect()
     }
 
-    /// The hull of the bands of a guide well inside the slots, if it is known; else every speed at which slots matter.
+    /// The hull of the bands of a guide well inside the slots, if it is known; else every speed at which slots matter. An undamped saw of
+    /// which no multipliers can be computed may grow at any speed, by up to 0.6 1/s beside guides well inside the slots.
     fn not_covered(&self, first_critical_rad_per_s: Option<f64>) -> Vec<SpeedRange> {
         let file = self.scene.file();
+        if self.model.is_conservative() && self.floquet.is_some_and(|found| found.is_err()) {
+            return vec![SpeedRange::new(0.0, f64::INFINITY)];
+        }
         let is_inside = file.slot_passing() == Some(SlotPassing::Inside);
         let pairs = self.split_pairs.as_ref().filter(|_| is_inside);
         match pairs.and_then(|pairs| pairs.hull.clone()) {

@@ -262,6 +262,25 @@ fn what_is_not_contained_is_said() {
     }
 }
 
+/// A guide well inside the slots on an arm, whose motion the multipliers do not contain: without damping motions may grow by up to 0.6 1/s
+/// below the first critical speed, by the scans of the design, and none does with a loss factor of 1e-3.
+#[test]
+fn an_undamped_saw_without_multipliers_is_not_certain() {
+    let answer = |loss: f64| {
+        let saw = saw(Some(FOUR), Some(guide(0.11, 0.02, 2e5, 0.0)));
+        let saw = saw.edited(|saw| {
+            saw.operating_rpm = Some(2000.0);
+            saw.guides[0].arm = serde_json::from_str(r#"{ "stiffness_n_per_m": 1e6 }"#).unwrap();
+            saw.damping = (loss > 0.0).then(|| loss_factor(loss));
+        });
+        let report = Analysis::new(&saw.unwrap()).unwrap().report();
+        (report.verdict.answer, report.verdict.cause)
+    };
+    let not_certain = (Some(Answer::AtRisk), Some("not_covered".to_owned()));
+    assert_eq!(answer(0.0), not_certain);
+    assert_eq!(answer(1e-3), (Some(Answer::Yes), None));
+}
+
 /// A guide beside the slots: with a loss factor the saw can run where the multipliers say so, and without one it cannot where they grow.
 #[test]
 fn the_multipliers_decide_at_the_operating_speed() {
