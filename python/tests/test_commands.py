@@ -90,7 +90,8 @@ def test_cut_is_stable_at_1800_and_flutters_at_2800() -> None:
     # docs/tutorials/stable-in-the-cut.md: 5.67 1/s at 4.53 Hz.
     cut = sf.Scene.paper().run_cut()
     slow, fast = cut.runs
-    assert [slow.verdict, fast.verdict] == ["stable", "unstable"]
+    assert [slow.stability, fast.stability] == ["stable", "unstable"]
+    assert [slow.verdict.answer, fast.verdict.answer] == ["at_risk", "no"]
     assert [slow.rpm, fast.rpm] == pytest.approx([1800.0, 2800.0])
     assert fast.growth_per_s == pytest.approx(5.67, abs=0.03)
     assert fast.frequency_hz == pytest.approx(4.53, abs=0.02)
