@@ -1019,11 +1019,11 @@ class Scene(Drawn, Mapping[str, Value]):
         return rows_in_html(self.name, ((key, json.dumps(self._data[key])) for key in kinds if key in self._data))
 
 
-def keys(word: str = "", *, study: bool = False) -> str:
-    """The keys of a scene, or of a study, with these words in their path or their text, each with its
+def keys(words: str = "", *, study: bool = False) -> str:
+    """The keys of a scene, or of a `study`, with these `words` in their path or their text, each with its
     unit, default, usual range and meaning, as printed by ``sawflutter keys``; "" if none has them.
     """
-    return _native.keys(word, study)
+    return _native.keys(words, study)
 
 
 def schema(*, study: bool = False) -> dict[str, Any]:

@@ -149,8 +149,8 @@ fn calls() -> String {
 
 /// The keys of a scene, or of a study, with these words in their path or their text.
 #[pyfunction]
-fn keys(word: &str, of_study: bool) -> String {
-    sawflutter::app::cli::keys(word, of_study)
+fn keys(words: &str, of_study: bool) -> String {
+    sawflutter::app::cli::keys(words, of_study)
 }
 
 /// Runs the program with arguments, the first of which is its name, and gives its exit code.
