@@ -247,6 +247,11 @@ fn ranges_without_an_end_and_numbers_that_are_none_are_said() {
     let path = [("blade.thickness_m", None)];
     for (vary, points, words) in [
         (
+            &[("operating_rpm", Some((1e7, 2e7)))][..],
+            9,
+            "operating_rpm must be at most",
+        ),
+        (
             &[][..],
             9,
             "vary is missing; it must be the path of one number",

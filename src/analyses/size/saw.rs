@@ -114,7 +114,13 @@ impl Question<'_> {
             limits: self.scene.limits(),
             ..Limits::at(0.0)
         };
-        self.onsets(self.scene, &others, rad_per_s(to_rpm))
+        let end = rad_per_s(to_rpm);
+        let is_last = end > others.reach().end_rad_per_s;
+        let found = self.onsets(self.scene, &others, end);
+        found.map_err(|error| match error {
+            CheckError::Analysis(error) if is_last => error.due_to("operating_rpm", 1.0).into(),
+            other => other,
+        })
     }
 
     fn onsets(
