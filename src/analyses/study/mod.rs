@@ -17,7 +17,8 @@
 //!          "distribution": { "kind": "tolerance", "plus_minus": 5e-5 } }] }"#,
 //! )?;
 //! let report = study(scene, file, &|_, _| ())?;
-//! let median = report.all.first_critical.quantiles[3].rpm.unwrap();
+//! // Quantiles are as fine as eight saws allow: 25, 50 and 75 %.
+//! let median = report.all.first_critical.quantiles[1].rpm.unwrap();
 //! assert!((median / 1476.6 - 1.0).abs() < 0.01, "{median}");
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
