@@ -9,7 +9,7 @@ mod problem;
 mod token;
 
 pub(crate) use fault::KeyedError;
-#[cfg(feature = "cli")]
+#[cfg(any(feature = "cli", feature = "page"))]
 pub(crate) use file::read_stream;
 pub use file::{FileError, Kind, OtherEncodings, read_path};
 pub(crate) use json::from_keyed_json;
