@@ -396,16 +396,34 @@ impl Analysis {
     /// The hull of the bands of a guide well inside the slots, if it is known; else every speed at which slots matter. An undamped saw of
     /// which no multipliers can be computed may grow at any speed, by up to 0.6 1/s beside guides well inside the slots.
     fn not_covered(&self, first_critical_rad_per_s: Option<f64>) -> Vec<SpeedRange> {
-        let file = self.scene.file();
-        if self.model.is_conservative() && self.floquet.is_some_and(|found| found.is_err()) {
+        if self.is_open_everywhere() {
             return vec![SpeedRange::new(0.0, f64::INFINITY)];
         }
-        let is_inside = file.slot_passing() == Some(SlotPassing::Inside);
-        let pairs = self.split_pairs.as_ref().filter(|_| is_inside);
-        match pairs.and_then(|pairs| pairs.hull.clone()) {
-            Some(hull) => hull,
-            None => file.not_covered(first_critical_rad_per_s),
+        match self.hull() {
+            Some(hull) => hull.to_vec(),
+            None => self.scene.file().not_covered(first_critical_rad_per_s),
         }
+    }
+
+    fn is_open_everywhere(&self) -> bool {
+        self.model.is_conservative() && self.floquet.is_some_and(|found| found.is_err())
+    }
+
+    /// The hull of bands where it decides which speeds are not certain: for guides well inside the slots.
+    pub(crate) fn hull(&self) -> Option<&[SpeedRange]> {
+        let is_inside = self.scene.file().slot_passing() == Some(SlotPassing::Inside);
+        let pairs = self.split_pairs.as_ref()?;
+        let decides = is_inside && !self.is_open_everywhere();
+        pairs.hull.as_deref().filter(|_| decides)
+    }
+
+    /// Speeds of the sweep at which slots pass guides and the saw is unstable or not certain; `None` if no slots pass guides.
+    pub(crate) fn not_certain(&self) -> Option<Vec<SpeedRange>> {
+        self.scene.file().slot_passing()?;
+        let lowest = self.critical_rad_per_s().first().copied();
+        let open = self.not_covered(lowest).into_iter();
+        let open = open.map(|range| range.within(self.range_rad_per_s));
+        Some(open.filter(|range| range.width() > 0.0).collect())
     }
 
     pub(crate) fn evidence<'a>(&'a self, critical_rad_per_s: &'a [f64]) -> Evidence<'a> {

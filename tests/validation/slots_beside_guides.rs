@@ -274,6 +274,16 @@ fn an_undamped_saw_without_multipliers_is_not_certain() {
             saw.damping = (loss > 0.0).then(|| loss_factor(loss));
         });
         let report = Analysis::new(&saw.unwrap()).unwrap().report();
+        let open = report.split_pairs.unwrap().not_certain_rpm.unwrap();
+        // What the report calls not certain is what the verdict does.
+        let is_open = open
+            .iter()
+            .any(|[from, to]| (*from..=*to).contains(&2000.0));
+        assert_eq!(
+            is_open,
+            report.verdict.cause.as_deref() == Some("not_covered"),
+            "{open:?}"
+        );
         (report.verdict.answer, report.verdict.cause)
     };
     let not_certain = (Some(Answer::AtRisk), Some("not_covered".to_owned()));

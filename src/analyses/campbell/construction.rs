@@ -66,7 +66,7 @@ impl Analysis {
             critical_speeds: critical,
             critical_speeds_without_damping: model.has_turning_damping(),
             instabilities: instabilities(analysis, &branches, scene.flutter_threshold_per_s()),
-            split_pairs: analysis.split_pairs.as_ref().map(SplitPairs::new),
+            split_pairs: SplitPairs::of(analysis),
             first_critical_rpm: analysis.first_critical_rpm(),
             flutter_rpm: analysis.flutter_speed_rad_per_s.map(rpm),
             first_merge_rpm: analysis.first_merge_rad_per_s.map(rpm),

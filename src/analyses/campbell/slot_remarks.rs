@@ -73,14 +73,10 @@ pub(super) fn factored(blade: &Blade) -> Option<String> {
 /// Says what is not covered where slots pass guides.
 pub(super) fn passing(scene: &Scene, analysis: &Analysis) -> Option<String> {
     let where_covered = match scene.file().slot_passing()? {
-        SlotPassing::Inside
-            if analysis
-                .split_pairs
-                .as_ref()
-                .is_some_and(|pairs| pairs.hull.is_some()) =>
-        {
-            "all guides end well inside the slots, and the speeds given as unstable or not certain contained all growth above the first \
-             critical speed of the saws that were tried"
+        SlotPassing::Inside if analysis.hull().is_some() => {
+            "all guides end well inside the slots, and the speeds given as unstable or not certain, the hull of the bands with the lower \
+             branch, the mean and the upper branch of split pairs and 1 % beside them, contained all growth above the first critical speed \
+             of the saws that were tried"
         }
         SlotPassing::Inside => {
             "all guides end well inside the slots, where this matters above the first critical speed: no speed above it is called stable"

@@ -4,7 +4,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use crate::model::scene::rpm;
-use crate::stability;
+use crate::stability::Analysis;
 
 /// Results of a slotted blade with other branches of its split pairs than the lower one, for which the critical speeds and bands of the
 /// report hold.
@@ -14,9 +14,10 @@ use crate::stability;
 pub struct SplitPairs {
     /// Critical speeds within the sweep with the upper branch of every pair, without those that both branches share; ascending.
     pub upper_critical_speeds: Vec<UpperCriticalSpeed>,
-    /// Speeds at which slots pass guides and the saw is unstable or not certain: the filled hull of the bands with the lower branch, the
-    /// mean and the upper branch, and 1 % beside it. It is no exact result, which only the Floquet multipliers of `verdict` are. Null
-    /// if nothing is fixed in space, and if the search for bands failed.
+    /// Speeds of the sweep at which slots pass guides and the saw is unstable or not certain, unless the Floquet multipliers of `verdict`
+    /// decide. For guides that end well inside the slots they are the filled hull of the bands with the lower branch, the mean and the
+    /// upper branch, and 1 % beside it; without that hull all speeds above the first critical one. They are all speeds for guides
+    /// beside the slots, and for an undamped saw without multipliers. Null if nothing is fixed in space.
     pub not_certain_rpm: Option<Vec<[f64; 2]>>,
 }
 
@@ -35,7 +36,9 @@ pub struct UpperCriticalSpeed {
 const ONE_WAVE: f64 = 1e-6;
 
 impl SplitPairs {
-    pub(super) fn new(found: &stability::SplitPairs) -> Self {
+    /// The results of an analysis; `None` without slots.
+    pub(super) fn of(analysis: &Analysis) -> Option<Self> {
+        let found = analysis.split_pairs.as_ref()?;
         let mut upper_critical_speeds: Vec<UpperCriticalSpeed> = Vec::new();
         for critical in &found.upper_critical {
             let entry = UpperCriticalSpeed {
@@ -49,11 +52,11 @@ impl SplitPairs {
                 upper_critical_speeds.push(entry);
             }
         }
-        let hull = found.hull.as_ref();
-        SplitPairs {
+        let open = analysis.not_certain();
+        Some(SplitPairs {
             upper_critical_speeds,
-            not_certain_rpm: hull.map(|hull| hull.iter().map(|own| own.ends().map(rpm)).collect()),
-        }
+            not_certain_rpm: open.map(|open| open.iter().map(|own| own.ends().map(rpm)).collect()),
+        })
     }
 
     /// The critical speeds of upper branches in words; `None` without any.
@@ -71,15 +74,14 @@ impl SplitPairs {
         })
     }
 
-    /// The hull in words; `None` if there is none.
-    pub(super) fn hull_in_words(&self) -> Option<String> {
-        let hull = self.not_certain_rpm.as_ref()?;
-        let ranges: Vec<String> = hull.iter().map(between).collect();
+    /// The speeds that are not certain in words; `None` if there are none.
+    pub(super) fn not_certain_in_words(&self) -> Option<String> {
+        let open = self.not_certain_rpm.as_ref()?;
+        let ranges: Vec<String> = open.iter().map(between).collect();
         let is_any = !ranges.is_empty();
         is_any.then(|| {
             format!(
-                "Unstable or not certain, because slots pass guides: {} rpm (hull of the bands with the lower branch, the mean and the \
-                 upper branch of split pairs, and 1 % beside them)",
+                "Unstable or not certain, because slots pass guides: {} rpm",
                 ranges.join(", ")
             )
         })

@@ -2,7 +2,6 @@
 //! a number.
 
 use super::criteria::of_deflection;
-use super::limits::Limits;
 use super::rim::Judged;
 use crate::analyses::board_deviation::BoardDeviation;
 use crate::analyses::verdict::{Judge, Verdict};
@@ -25,6 +24,16 @@ pub(crate) struct Searched<'a> {
 }
 
 impl<'a> Searched<'a> {
+    /// Whether a saw is judged by its critical speeds, its bands and the deflection at the cut alone: without amplitudes of flutter,
+    /// without Floquet multipliers of slots that pass guides, and without gaps that the cut may close.
+    pub fn suffices(scene: &Scene) -> bool {
+        let file = scene.file();
+        let has_gaps = file.guides.iter().any(|guide| guide.gap_m.is_some());
+        scene.limits().max_amplitude_m.is_none()
+            && file.slot_passing().is_none()
+            && !(has_gaps && file.cut.is_some())
+    }
+
     /// The verdict at a speed, and the deflection at the cut where it can change it.
     pub fn judged(&self, speed_rad_per_s: Option<f64>) -> (Verdict, Option<BoardDeviation>) {
         let judge = self.judge();
@@ -71,17 +80,5 @@ impl<'a> Searched<'a> {
                 .map(|place| self.evidence.critical_rad_per_s[place]),
             estimated_relative_error: Some(self.estimated_relative_error),
         }
-    }
-}
-
-impl Limits {
-    /// Whether a saw is judged by its critical speeds, its bands and the deflection at the cut alone: without amplitudes of flutter,
-    /// without Floquet multipliers of slots that pass guides, and without gaps that the cut may close.
-    pub(crate) fn need_no_chart(&self, scene: &Scene) -> bool {
-        let file = scene.file();
-        let has_gaps = file.guides.iter().any(|guide| guide.gap_m.is_some());
-        self.limits.max_amplitude_m.is_none()
-            && file.slot_passing().is_none()
-            && !(has_gaps && file.cut.is_some())
     }
 }

@@ -106,7 +106,7 @@ fn panel(run: &CutAtSpeed, scale: &Scale) -> PanelData {
     }
 }
 
-/// The time of the cut, in the colour of the verdict.
+/// The time of the cut, in the colour of its stability.
 fn in_cut(run: &CutAtSpeed, reach: f64) -> Area {
     let (hue, tint, name) = match run.stability {
         CutStability::Stable => (Hue::Forward, STABLE_TINT, "in the cut, stable"),
@@ -175,7 +175,7 @@ fn title(run: &CutAtSpeed) -> String {
         CutStability::Unstable => {
             format!("{} rpm: {} ({})", run.rpm, run.stability, run.decided_by)
         }
-        verdict => format!("{} rpm: {verdict}", run.rpm),
+        stability => format!("{} rpm: {stability}", run.rpm),
     }
 }
 

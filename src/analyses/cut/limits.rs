@@ -29,12 +29,11 @@ impl InCut<'_> {
     /// The verdict by the limits of the scene.
     pub fn verdict(&self, scene: &Scene) -> Verdict {
         let speed = self.speed_rad_per_s;
-        let first = self.critical_rad_per_s.first();
         let limits = vec![
             self.of_growth(),
             self.of_model(scene),
             of_critical(self.critical_rad_per_s, speed),
-            of_margin(&scene.limits(), first, speed),
+            self.of_margin(scene),
             self.of_width(scene),
         ];
         let verdict = Verdict::at_one_speed(rpm(speed), limits);
@@ -66,6 +65,17 @@ impl InCut<'_> {
             source,
             !grows,
         )
+    }
+
+    /// Critical speeds are searched only as far as this limit requires.
+    fn of_margin(&self, scene: &Scene) -> Criterion {
+        let first = self.critical_rad_per_s.first();
+        let found = of_margin(&scene.limits(), first, self.speed_rad_per_s);
+        let finding = match first {
+            Some(_) => found.finding,
+            None => format!("no critical speed up to {:.0} rpm", found.asked_rpm),
+        };
+        Criterion { finding, ..found }
     }
 
     fn of_model(&self, scene: &Scene) -> Criterion {

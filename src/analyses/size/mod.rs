@@ -1,8 +1,8 @@
 //! The inverse question: with which values of a number does the saw keep its limits?
 //!
 //! [`size`](size()) judges saws between two bounds by their critical speeds and bands, closes in on every value at which a limit begins or
-//! ceases to be kept, and checks a rounded value inside the nearest range at the accuracy of the scene. The limits are those of [`check`](crate::analyses::check) at the
-//! operating speed of the scene. Ranges narrower than the distance of two saws can be missed.
+//! ceases to be kept, and checks a rounded value inside the nearest range at the accuracy of the scene. The limits are those of
+//! [`check`](crate::analyses::check) at the operating speed of the scene. Ranges narrower than the distance of two saws can be missed.
 
 pub(crate) mod chart;
 mod each;
@@ -23,7 +23,7 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 
 use rayon::prelude::*;
 
-use crate::analyses::check::{CheckReport, Limits};
+use crate::analyses::check::{CheckReport, Searched};
 use crate::analyses::door::{Progress, Step};
 use crate::analyses::scene_number;
 use crate::analyses::verdict::Answer;
@@ -96,11 +96,7 @@ fn ranges(
         ..exact
     };
     let to = first.to.max(of_scene);
-    let asked = Limits {
-        limits: scene.limits(),
-        ..Limits::at(0.0)
-    };
-    let is_swept = is_speed && asked.need_no_chart(scene);
+    let is_swept = is_speed && Searched::suffices(scene);
     let swept = |question: &Question<'_>| is_swept.then(|| question.swept_to(to)).transpose();
     let [of_exact, of_quick] = [swept(&exact)?, swept(&quick)?];
     let exact = Question {

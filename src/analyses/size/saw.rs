@@ -67,7 +67,7 @@ impl Question<'_> {
         if let Some(swept) = self.swept {
             return Ok(swept.judged(scene, &limits));
         }
-        if limits.need_no_chart(scene) {
+        if Searched::suffices(scene) {
             let swept = self.onsets(scene, &limits, limits.operating_rad_per_s)?;
             return Ok(swept.judged(scene, &limits));
         }

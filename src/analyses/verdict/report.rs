@@ -28,7 +28,8 @@ pub struct Verdict {
     pub windows_rpm: Vec<[f64; 2]>,
     /// Every limit, with its result at the operating speed; empty without one.
     pub limits: Vec<Criterion>,
-    /// Growth of a slotted saw beside guides, by Floquet multipliers; absent for other saws, without an operating speed, and for guides that they do not cover.
+    /// Growth of a slotted saw beside guides, by Floquet multipliers; absent for other saws, without an operating speed, and for guides
+    /// that they do not cover.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub floquet: Option<FloquetEntry>,
 }

@@ -126,7 +126,7 @@ fn in_short(variant: &str) -> String {
     settings.collect::<Vec<_>>().join(", ")
 }
 
-/// Label of the saw of a file: the name of the file or, for a report, of its folder.
+/// Name of the saw of a file: the name of the file or, for a report, of its folder.
 fn name(path: &Path) -> String {
     if is_standard_input(path) {
         return "standard-input".to_owned();

@@ -70,7 +70,7 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<()> {
     let folder = arguments.output.folder()?;
     let shard = arguments.shard.unwrap_or(Shard::WHOLE);
     match &arguments.scheduler {
-        Some(address) => scheduler::compute(study, folder.made()?, address)?,
+        Some(address) => scheduler::compute(study, folder.created()?, address)?,
         None => compute(study, shard, &folder)?,
     }
     if shard != Shard::WHOLE {

@@ -74,7 +74,7 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<()> {
         "orders": arguments.orders,
         "margin": arguments.margin,
         "steps": arguments.steps,
-        "out": folder.made()?,
+        "out": folder.created()?,
     });
     Ok(say(&NEED.answer(&[], &input.to_string())?)?)
 }

@@ -43,7 +43,7 @@ impl OutputFolder {
     }
 
     /// The folder, for what is kept in it during the run.
-    pub fn made(&self) -> anyhow::Result<&Path> {
+    pub fn created(&self) -> anyhow::Result<&Path> {
         let path = &self.path;
         std::fs::create_dir_all(path)
             .with_context(|| format!("cannot create the folder {}", path.display()))?;
@@ -76,7 +76,7 @@ impl OutputFolder {
 
     /// Begins to write the files of one run together: all are on the disk before the first one gets its name.
     pub fn begin(&self) -> anyhow::Result<Writing<'_>> {
-        self.made()?;
+        self.created()?;
         let turn = self.wait_for_turn();
         self.remove_leftovers();
         Ok(Writing {

@@ -86,7 +86,7 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<()> {
     let folder = arguments.output.folder()?;
     let shard = arguments.shard.unwrap_or(Shard::WHOLE);
     match &arguments.scheduler {
-        Some(address) => scheduler::compute(&study, folder.made()?, address)?,
+        Some(address) => scheduler::compute(&study, folder.created()?, address)?,
         None => compute(&study, shard, &folder)?,
     }
     if shard != Shard::WHOLE {
@@ -133,7 +133,7 @@ fn run_merge(merge: &Merge) -> anyhow::Result<()> {
 
 /// Analyses the saws of a part that its log lacks, and logs each one as soon as it is done.
 pub fn compute(study: &Study, shard: Shard, folder: &OutputFolder) -> anyhow::Result<()> {
-    let mut log = Log::open(folder.made()?, shard, study)?;
+    let mut log = Log::open(folder.created()?, shard, study)?;
     let (done, of) = (log.finished().done(), shard.count(study.count()));
     if done == of {
         return Ok(());

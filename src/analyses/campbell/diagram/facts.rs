@@ -48,22 +48,17 @@ fn not_covered(report: &Report) -> Option<String> {
     if let (Some(_), Some(rpm)) = (&report.verdict.floquet, report.verdict.rpm) {
         return Some(format!("slots pass guides: certain at {rpm:.0} rpm alone"));
     }
-    let hull = report
-        .split_pairs
-        .as_ref()
-        .and_then(|pairs| pairs.not_certain_rpm.as_ref());
-    match passing {
-        SlotPassing::Inside if hull.is_some() => {
-            let first = hull.and_then(|ranges| ranges.first());
-            first.map(|[from, _]| format!("slots pass guides: not certain from {from:.0} rpm"))
+    let pairs = report.split_pairs.as_ref();
+    let open = pairs.and_then(|pairs| pairs.not_certain_rpm.as_deref());
+    let speeds = match (open, passing) {
+        (Some([]), _) => return None,
+        (Some([[from, _], ..]), _) if *from > report.campbell.from_rpm => {
+            format!("from {from:.0} rpm")
         }
-        SlotPassing::Inside => {
-            Some("slots pass guides: not certain above the first critical speed".to_owned())
-        }
-        SlotPassing::Beside | SlotPassing::Unplaced => {
-            Some("slots pass guides: not certain at any speed".to_owned())
-        }
-    }
+        (None, SlotPassing::Inside) => "above the first critical speed".to_owned(),
+        _ => "at any speed".to_owned(),
+    };
+    Some(format!("slots pass guides: not certain {speeds}"))
 }
 
 fn verdict(report: &Report) -> String {

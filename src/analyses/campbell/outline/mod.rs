@@ -39,7 +39,7 @@ pub fn outline(report: &Report) -> Outline {
     if let Some(words) = report
         .split_pairs
         .as_ref()
-        .and_then(SplitPairs::hull_in_words)
+        .and_then(SplitPairs::not_certain_in_words)
     {
         text.sentence(words);
     }

@@ -6,8 +6,9 @@
 //! split into two branches. The stress of rotation is that of a plane with the same cuts, of which the mean around the circle is
 //! taken (`stress`): slot faces carry no traction, so that the mean stresses fulfil the axisymmetric equilibrium.
 //!
-//! The blade of the analysis remains axisymmetric, with c_n K_b of the lower branch, or of another [`SplitBranch`], in place of K_b, and the mean stress in K_σ. Measured
-//! against a plate with cuts that turns, critical speeds of n = 2 to 5 are within 0.7 % (docs/explanation/model.md).
+//! The blade of the analysis remains axisymmetric, with c_n K_b of the lower branch, or of another [`SplitBranch`], in place of K_b, and
+//! the mean stress in K_σ. Measured against a plate with cuts that turns, critical speeds of n = 2 to 5 are within 0.7 %
+//! (docs/explanation/model.md).
 //!
 //! Beside guides, which are fixed in space while slots turn, the modes of the slotted blade itself are needed, in its own frame and in its
 //! own stress (`turning`).
