@@ -1009,10 +1009,12 @@ class SplitPairs(Entry):
     ----------
     upper_critical_speeds : Critical speeds within the sweep with the upper branch of every
         pair, without those that both branches share; ascending.
-    not_certain_rpm : Speeds at which slots pass guides and the saw is unstable or not certain:
-        the filled hull of the bands with the lower branch, the mean and the upper branch, and 1
-        % beside it. It is no exact result, which only the Floquet multipliers of `verdict` are.
-        Null if nothing is fixed in space, and if the search for bands failed.
+    not_certain_rpm : Speeds of the sweep at which slots pass guides and the saw is unstable or
+        not certain, unless the Floquet multipliers of `verdict` decide. For guides that end
+        well inside the slots they are the filled hull of the bands with the lower branch, the
+        mean and the upper branch, and 1 % beside it; without that hull all speeds above the
+        first critical one. They are all speeds for guides beside the slots, and for an undamped
+        saw without multipliers. Null if nothing is fixed in space.
     """
 
     upper_critical_speeds: tuple[UpperCriticalSpeed, ...]

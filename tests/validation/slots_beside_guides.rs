@@ -275,7 +275,7 @@ fn an_undamped_saw_without_multipliers_is_not_certain() {
         });
         let report = Analysis::new(&saw.unwrap()).unwrap().report();
         let open = report.split_pairs.unwrap().not_certain_rpm.unwrap();
-        // What the report calls not certain is what the verdict does.
+        // The speeds that the report lists as not certain are those of the verdict.
         let is_open = open
             .iter()
             .any(|[from, to]| (*from..=*to).contains(&2000.0));
