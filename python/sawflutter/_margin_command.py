@@ -41,6 +41,7 @@ def run(given: dict[str, Any]) -> str:
     files = {
         "margin.csv": _saws(found).encode(), "peak-modes.csv": _modes(found).encode(), "margin.png": png(found.chart()),
     }  # fmt: skip
+    out.mkdir(parents=True, exist_ok=True)
     for name, content in files.items():
         (out / name).write_bytes(content)
     lines = [of for line in str(found).split("\n") for of in (wrapped(line, "    ") or [""])]

@@ -169,6 +169,7 @@ def _written(out: Path, found: Sequence[_Read], rows: Sequence[Row]) -> list[str
             while f"{name}.png" in files:
                 name, number = f"{stem}-{number}", number + 1
             files[f"{name}.png"] = png(of.chart)
+    out.mkdir(parents=True, exist_ok=True)
     # Rows of an earlier run would be taken for those of these files.
     (out / "measured.csv").unlink(missing_ok=True)
     for name, content in files.items():

@@ -74,7 +74,7 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<()> {
         "orders": arguments.orders,
         "margin": arguments.margin,
         "steps": arguments.steps,
-        "out": folder.created()?,
+        "out": folder.path(),
     });
     Ok(say(&NEED.answer(&[], &input.to_string())?)?)
 }

@@ -14,32 +14,22 @@ const STAGED: &str = ".sawflutter-";
 /// An output folder in which files can be written.
 pub struct OutputFolder {
     path: PathBuf,
-    /// The folder and its parents as far as this run has created them, the innermost first.
-    made: Vec<PathBuf>,
 }
 
 impl OutputFolder {
-    /// Creates the folder if it is missing, and writes a temporary file in it, so that a folder that cannot be
-    /// written is refused before the computation instead of after it. A created folder is removed again until something is written
-    /// in it, so that a run that is interrupted leaves none.
+    /// Tries to write in the folder, so that one that cannot be written is refused before the computation instead of
+    /// after it. A folder that is missing is tried in a temporary folder beside it and is created when there are
+    /// files for it, so that a run that is refused or interrupted leaves none.
     pub fn open(path: &Path) -> anyhow::Result<Self> {
-        let refused = || {
+        tried(path).with_context(|| {
             format!(
                 "cannot write to the output folder {}; name another one with --out",
                 path.display()
             )
-        };
-        let missing = path
-            .ancestors()
-            .take_while(|folder| !folder.as_os_str().is_empty() && !folder.exists());
-        let folder = OutputFolder {
+        })?;
+        Ok(OutputFolder {
             path: path.to_owned(),
-            made: missing.map(Path::to_owned).collect(),
-        };
-        std::fs::create_dir_all(path).with_context(refused)?;
-        tempfile::NamedTempFile::new_in(path).with_context(refused)?;
-        folder.remove_made();
-        Ok(folder)
+        })
     }
 
     /// The folder, for what is kept in it during the run.
@@ -48,16 +38,6 @@ impl OutputFolder {
         std::fs::create_dir_all(path)
             .with_context(|| format!("cannot create the folder {}", path.display()))?;
         Ok(path)
-    }
-
-    /// Removes the empty folders that this run has created.
-    fn remove_made(&self) {
-        for folder in &self.made {
-            // The system refuses to remove a folder that contains files.
-            if std::fs::remove_dir(folder).is_err() {
-                break;
-            }
-        }
     }
 
     /// Writes the files of one run together, see [`Writing::finish`].
@@ -131,13 +111,6 @@ impl OutputFolder {
     }
 }
 
-/// A run that was refused or failed removes the empty folders that it has created.
-impl Drop for OutputFolder {
-    fn drop(&mut self) {
-        self.remove_made();
-    }
-}
-
 /// Files of one run that still have temporary names.
 pub struct Writing<'a> {
     folder: &'a OutputFolder,
@@ -196,6 +169,27 @@ impl Writing<'_> {
     }
 }
 
+/// Creates a temporary file in a folder, or the folder with its missing parents inside a temporary one. Another run can
+/// create the same folder at any moment, so that nothing with its own name is created only to be removed.
+fn tried(path: &Path) -> std::io::Result<()> {
+    let is_there = |folder: &&Path| folder.as_os_str().is_empty() || folder.exists();
+    let existing = path.ancestors().find(is_there).unwrap_or(Path::new(""));
+    let missing = path.strip_prefix(existing).unwrap_or(path);
+    if missing.as_os_str().is_empty() {
+        tempfile::NamedTempFile::new_in(path)?;
+        return Ok(());
+    }
+    let existing = match existing.as_os_str().is_empty() {
+        true => Path::new("."),
+        false => existing,
+    };
+    let beside = tempfile::Builder::new()
+        .prefix(STAGED)
+        .tempdir_in(existing)?;
+    std::fs::create_dir_all(beside.path().join(missing))?;
+    beside.close()
+}
+
 /// Creates a temporary file with the permissions of any new file, because its content becomes a result that others may
 /// read.
 pub fn temporary_file(prefix: &str, folder: &Path) -> std::io::Result<tempfile::NamedTempFile> {
@@ -207,4 +201,38 @@ pub fn temporary_file(prefix: &str, folder: &Path) -> std::io::Result<tempfile::
         builder.permissions(std::fs::Permissions::from_mode(0o666));
     }
     builder.tempfile_in(folder)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Several runs try the same missing folder at once: none finds it removed by another.
+    #[test]
+    fn runs_that_begin_together_do_not_hinder_each_other() {
+        let place = tempfile::TempDir::new().unwrap();
+        let path = place.path().join("results/of/today");
+        let tries = || {
+            for _ in 0..200 {
+                OutputFolder::open(&path).unwrap();
+            }
+        };
+        std::thread::scope(|scope| {
+            for _ in 0..4 {
+                scope.spawn(tries);
+            }
+        });
+        assert_eq!(std::fs::read_dir(place.path()).unwrap().count(), 0);
+    }
+
+    #[test]
+    fn folders_that_cannot_be_made_are_refused() {
+        let place = tempfile::TempDir::new().unwrap();
+        let file = place.path().join("file");
+        std::fs::write(&file, "").unwrap();
+        for path in [file.join("out"), place.path().join("a".repeat(300)), file] {
+            assert!(OutputFolder::open(&path).is_err(), "{}", path.display());
+        }
+        assert_eq!(std::fs::read_dir(place.path()).unwrap().count(), 1);
+    }
 }

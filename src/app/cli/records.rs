@@ -101,7 +101,7 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<()> {
         "between": arguments.between,
         "rate_hz": arguments.rate,
         "to_hz": arguments.to_frequency,
-        "out": folder.created()?,
+        "out": folder.path(),
     });
     Ok(say(&NEED.answer(&[], &input.to_string())?)?)
 }
