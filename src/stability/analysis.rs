@@ -198,7 +198,7 @@ impl Analysis {
         let at_rest = ModesAtRest::new(&model, range)?;
         let is_refined = scene.accuracy() == Accuracy::Reference && detail == Detail::Full;
         let mut listed = is_refined
-            .then(|| Listed::new(&model, &at_rest.oscillating))
+            .then(|| Listed::new(at_rest.model(&model), &at_rest.oscillating))
             .transpose()?;
         if let Some(listed) = &mut listed {
             listed.refine_peaks(&model, &mut chart.instabilities)?;

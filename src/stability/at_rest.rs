@@ -7,6 +7,8 @@ use crate::modes::{
 
 /// Modes at rest up to the height of a diagram that begins there.
 pub struct ModesAtRest {
+    /// Their model, where a sweep that begins at a speed does not contain them.
+    own: Option<SpectralModel>,
     /// Oscillating modes, ascending.
     pub oscillating: Vec<DescribedMode>,
     /// Number of the others, which decay without oscillating.
@@ -21,25 +23,34 @@ impl ModesAtRest {
     /// [`SpectrumError`] when an eigenproblem fails.
     pub fn new(model: &SpectralModel, range: SpeedRange) -> Result<Self, SpectrumError> {
         if range.from_rad_per_s == 0.0 {
-            return Self::of(model);
+            let (oscillating, overdamped) = listed(model)?;
+            return Ok(ModesAtRest {
+                own: None,
+                oscillating,
+                overdamped,
+            });
         }
         let rest = SpeedRange::new(0.0, SPLITTING * frequency_scale(&model.plate));
         let (plate, critical) = (model.plate.clone(), model.critical.clone());
-        Self::of(&SpectralModel::with_critical(
-            plate,
-            critical,
-            rest,
-            Strategy::Reduced,
-        )?)
-    }
-
-    fn of(model: &SpectralModel) -> Result<Self, SpectrumError> {
-        let modes = model.describe(0.0, model.modes(0.0)?).into_iter();
-        let (overdamped, oscillating): (Vec<_>, Vec<_>) =
-            modes.partition(|mode| mode.mode.is_overdamped());
+        let own = SpectralModel::with_critical(plate, critical, rest, Strategy::Reduced)?;
+        let (oscillating, overdamped) = listed(&own)?;
         Ok(ModesAtRest {
+            own: Some(own),
             oscillating,
-            overdamped: overdamped.len(),
+            overdamped,
         })
     }
+
+    /// The model that gives these modes: their own, or that of the sweep.
+    pub fn model<'a>(&'a self, of_sweep: &'a SpectralModel) -> &'a SpectralModel {
+        self.own.as_ref().unwrap_or(of_sweep)
+    }
+}
+
+/// Oscillating modes of a model at rest, and the number of the others.
+fn listed(model: &SpectralModel) -> Result<(Vec<DescribedMode>, usize), SpectrumError> {
+    let modes = model.describe(0.0, model.modes(0.0)?).into_iter();
+    let (overdamped, oscillating): (Vec<_>, Vec<_>) =
+        modes.partition(|mode| mode.mode.is_overdamped());
+    Ok((oscillating, overdamped.len()))
 }

@@ -56,3 +56,16 @@ fn damping_at_rest_is_that_of_the_full_model_at_rest() {
         assert!(off < 1e-6, "{} Hz: {off:e}", found.im / TAU);
     }
 }
+
+/// At the highest accuracy the listed modes are refined on the full model at their own speed, which the sweep does not contain.
+#[test]
+fn a_sweep_that_begins_fast_is_refined_at_rest() {
+    let scene = Scene::paper().edited(|saw| {
+        saw.accuracy = Accuracy::Reference;
+        saw.sweep.as_mut().unwrap().from_rpm = 1500.0;
+        saw.sweep.as_mut().unwrap().to_rpm = 1600.0;
+    });
+    let analysis = Analysis::new(&scene.unwrap()).unwrap();
+    let error = analysis.listed_backward_error;
+    assert!(error.is_some_and(|error| error < 1e-9), "{error:?}");
+}
