@@ -125,14 +125,17 @@ impl Instability {
         if self.kind == InstabilityKind::Divergence {
             return None;
         }
-        let ends = self.range().ends().into_iter().zip(self.ends);
-        let real = ends.filter_map(|(speed, end)| match end {
+        self.ends_at_peak().find_map(|(speed, end)| match end {
             BandEnd::Coalescence(lambda) if lambda.im == 0.0 => Some((speed, lambda)),
             _ => None,
-        });
+        })
+    }
+
+    /// The ends beside which growth is largest.
+    pub(super) fn ends_at_peak(&self) -> impl Iterator<Item = (f64, BandEnd)> {
+        let ends = self.range().ends().into_iter().zip(self.ends);
         let away = |speed: f64| (speed - self.peak_rad_per_s).abs() / self.range().width();
-        real.into_iter()
-            .find(|(speed, _)| away(*speed) <= 2.0 * BESIDE_END)
+        ends.filter(move |(speed, _)| away(*speed) <= 2.0 * BESIDE_END)
     }
 
     /// Whether the band counts as an instability of the saw. Damping that the scene does not model suppresses
