@@ -113,7 +113,8 @@ impl Curves {
         let cut_off = ending(BranchEnd::Most).count();
         if cut_off > 0 {
             remarks.push(format!(
-                "{cut_off} of {all} curves of equilibria end at the largest number of equilibria of a figure, within the range of speeds"
+                "{cut_off} of {all} curves of equilibria {} cut off within the range of speeds, at the largest number of points of a curve",
+                if cut_off == 1 { "is" } else { "are" }
             ));
         }
         let lost: Vec<String> = ending(BranchEnd::Lost)

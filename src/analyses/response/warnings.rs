@@ -1,6 +1,6 @@
 //! Remarks on the validity of the result.
 
-use super::report::{ResponseLine, SteadyState};
+use super::report::{Resonance, ResponseLine, SteadyState};
 use crate::model::scene::Scene;
 use crate::page::text::{counted, shown};
 
@@ -27,28 +27,39 @@ pub(super) fn warnings(
             shown(1e3 * thickness)
         ));
     }
-    let reasons = [
+    let resonances = || lines.iter().flat_map(|line| &line.resonances);
+    let unbounded = |at: &&Resonance| at.steady_state == SteadyState::Unbounded;
+    let is_static = |at: &&Resonance| at.frequency_hz == 0.0;
+    let counts = [
         (
-            SteadyState::Unbounded,
+            resonances().filter(unbounded).filter(is_static).count(),
+            "the static stiffness is zero there, so that any side force deflects the blade without bound",
+        ),
+        (
+            resonances()
+                .filter(unbounded)
+                .filter(|at| !is_static(at))
+                .count(),
             "nothing dissipates the energy of the motion there, so that amplitudes grow without bound",
         ),
         (
-            SteadyState::BeyondModel,
+            resonances()
+                .filter(|at| at.steady_state == SteadyState::BeyondModel)
+                .count(),
             "amplitudes exceed five thicknesses of the blade there",
         ),
-        (SteadyState::None, "the saw is unstable there"),
+        (
+            resonances()
+                .filter(|at| at.steady_state == SteadyState::None)
+                .count(),
+            "the saw is unstable there",
+        ),
     ];
-    for (state, why) in reasons {
-        let all = lines.iter().flat_map(|line| &line.resonances);
-        let count = all
-            .filter(|resonance| resonance.steady_state == state)
-            .count();
-        if count > 0 {
-            warnings.push(format!(
-                "at {} no amplitude is given: {why}",
-                counted(count, ["resonance", "resonances"])
-            ));
-        }
+    for (count, why) in counts.into_iter().filter(|(count, _)| *count > 0) {
+        warnings.push(format!(
+            "at {} no amplitude is given: {why}",
+            counted(count, ["resonance", "resonances"])
+        ));
     }
     warnings
 }

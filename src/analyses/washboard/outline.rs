@@ -1,11 +1,13 @@
 //! The text of a washboarding analysis.
 
+use std::f64::consts::LN_2;
+
 use super::{WashboardMode, WashboardReport};
 use crate::analyses::campbell::Verdict;
 use crate::page::outline::{
     Column, FREQUENCY, Fact, GROWTH, LENGTH, METRES, Outline, STIFFNESS, Table, Value,
 };
-use crate::page::text::shown_to;
+use crate::page::text::{shown, shown_to};
 
 pub fn outline(report: &WashboardReport) -> Outline {
     let mut text = Outline::of(
@@ -30,9 +32,18 @@ pub fn outline(report: &WashboardReport) -> Outline {
 
 fn verdict(report: &WashboardReport) -> String {
     let rpm = report.rpm;
+    let threshold_per_s = report.scene.flutter_threshold_per_s;
     match (report.verdict, report.growing_mode()) {
         (Verdict::Stable, _) => format!("{rpm} rpm: stable, no washboarding"),
         (Verdict::Unstable, None) => format!("{rpm} rpm: UNSTABLE"),
+        (Verdict::Unstable, Some(mode)) if mode.growth_per_s < threshold_per_s => format!(
+            "{rpm} rpm: no washboarding of {} 1/s or more; a vibration grows by {} 1/s at {:.1} Hz ({}), twofold in {} s",
+            shown(threshold_per_s),
+            shown_to(2, mode.growth_per_s),
+            mode.frequency_hz,
+            mode.name,
+            shown_to(2, LN_2 / mode.growth_per_s)
+        ),
         (Verdict::Unstable, Some(mode)) => {
             let pattern = mode
                 .pattern_pitch_m
@@ -78,20 +89,14 @@ fn modes(report: &WashboardReport) -> Table {
         Column::of("frequency", &FREQUENCY),
         Column::of("growth", &GROWTH),
         Column::of("without", &GROWTH),
-        Column::words("beside teeth").in_unit(FREQUENCY.unit),
         Column::words("pitch"),
     ];
     let row = |mode: &WashboardMode| {
-        let beside = mode.beside_tooth_passing_hz.map(|hz| {
-            let multiple = mode.tooth_passing_multiple.unwrap_or_default();
-            format!("{multiple}x {hz:+.1}")
-        });
         [
             mode.name.clone().into(),
             FREQUENCY.fixed(1, mode.frequency_hz),
             GROWTH.fixed(3, mode.growth_per_s),
             GROWTH.fixed(3, mode.growth_without_per_s),
-            beside.map_or(Value::Missing, Value::from),
             mode.pattern_pitch_m
                 .map_or(Value::Missing, |pitch| length(pitch).with_unit().into()),
         ]

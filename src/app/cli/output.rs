@@ -179,9 +179,10 @@ fn tried(path: &Path) -> std::io::Result<()> {
         tempfile::NamedTempFile::new_in(path)?;
         return Ok(());
     }
-    let existing = match existing.as_os_str().is_empty() {
-        true => Path::new("."),
-        false => existing,
+    let existing = if existing.as_os_str().is_empty() {
+        Path::new(".")
+    } else {
+        existing
     };
     let beside = tempfile::Builder::new()
         .prefix(STAGED)
