@@ -9,6 +9,7 @@ writes those that are out of date, and fails. By hand:
 
 from __future__ import annotations
 
+import ast
 import json
 import os
 import re
@@ -56,10 +57,20 @@ def rust_example() -> str:
     return "```rust\n" + "\n".join(line for line in bare if not line.startswith("#")) + "\n```\n"
 
 
+def calls() -> str:
+    """The table of calls in the docstring of the Python package."""
+    module = ast.parse((ROOT / "python/sawflutter/__init__.py").read_text(encoding="utf-8"))
+    _, _, table = (ast.get_docstring(module) or "").partition("I want: the call\n\n")
+    lines = [line.strip() for line in table.splitlines()]
+    rows = (f"| {want} | `{call}` |" for want, call in zip(lines[::2], lines[1::2]))
+    return "\n".join(["| I want | Call |", "|---|---|", *rows, ""])
+
+
 def generate() -> list[str]:
     """Writes the tables that are out of date, and returns their names."""
     scene = json.loads(said("schema"))
     pages = {
+        "calls.md": calls(),
         "reports.md": report_tables(),
         "rust-example.md": rust_example(),
         "command-line.md": command_line(),

@@ -79,7 +79,7 @@ def _short(value: Any) -> str:
     if isinstance(value, np.ndarray):
         shape = " x ".join(str(length) for length in value.shape)
         return f"<{shape} numbers>"
-    if isinstance(value, tuple) and value and (isinstance(value[0], (Entry, tuple)) or len(value) > _SHOWN):
+    if isinstance(value, (tuple, list)) and value and (isinstance(value[0], (Entry, tuple)) or len(value) > _SHOWN):
         return f"<{len(value)} of {type(value[0]).__name__}>"
     if isinstance(value, dict):
         return f"<{value.get('name', 'dict')!r}>"

@@ -35,8 +35,13 @@ def frame(columns: Any) -> pd.DataFrame:
 
 def entries(of: Iterable[Any]) -> pd.DataFrame:
     """The plain numbers and texts of entries of a report, one row each."""
-    plain = (str, bool, int, float, type(None))
-    return frame([{k: v for k, v in vars(entry).items() if isinstance(v, plain)} for entry in of])
+    return frame(plain(of))
+
+
+def plain(of: Iterable[Any]) -> list[dict[str, Any]]:
+    """The plain numbers and texts of entries of a report."""
+    kinds = (str, bool, int, float, type(None))
+    return [{name: value for name, value in vars(entry).items() if isinstance(value, kinds)} for entry in of]
 
 
 def csv_frame(text: str) -> pd.DataFrame:

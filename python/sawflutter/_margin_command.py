@@ -19,7 +19,7 @@ import numpy as np
 from . import _native
 from ._command import answered, in_options, png, wrapped
 from .errors import ArgumentError, InputError
-from .margins import MeasuredMargin, measured_margin
+from .margins import MeasuredMargin
 from .scene import Scene
 
 # Seconds between two lines of progress.
@@ -33,7 +33,7 @@ def run(given: dict[str, Any]) -> str:
     free = {path: (low, high) for path, low, high in given["free"]}
     options = {name: given[name] for name in ("orders", "margin", "steps")}
     try:
-        found = measured_margin(saw, rpm, hz, free, progress=_lines(), **options)
+        found = saw.measured_margin(rpm, hz, free, progress=_lines(), **options)
     except ArgumentError as error:
         message = in_options(error, ("orders", "margin", "steps", "free"))
         raise InputError(message.replace("peak_hz must be", f"the peaks of {given['peaks']} must be")) from None
@@ -69,7 +69,7 @@ def _lines() -> Any:
     """Prints lines of progress at intervals."""
     last = [time.monotonic()]
 
-    def told(what: str, done: int, of: int) -> None:
+    def told(done: int, of: int, what: str) -> None:
         if time.monotonic() - last[0] > _APART:
             last[0] = time.monotonic()
             print(f"{done} of {of} {what}", file=sys.stderr, flush=True)

@@ -10,6 +10,7 @@ import numpy.typing as npt
 
 from ._entry import ComplexArray, Entry, FloatArray
 from ._values import Number, numbers
+from .errors import refused
 
 if TYPE_CHECKING:
     from ._report_types import Branch, Instability, Shape, Wave
@@ -25,13 +26,14 @@ class RestModeMethods(Entry):
         profiles: tuple[Shape, ...]
 
     def shape(self, radius_m: npt.ArrayLike, angle_deg: npt.ArrayLike) -> FloatArray:
-        """Deflection at ``radius_m`` and ``angle_deg`` as in :meth:`Mode.shape`, with a maximum of one."""
+        """Deflection at ``radius_m`` and ``angle_deg`` as in :meth:`Mode.shape`, with a maximum of one, of
+        the shape of both."""
         radius, theta = points(radius_m, angle_deg)
         total = np.zeros(radius.shape)
         for part in self.profiles:
             n = part.nodal_diameters
-            total += _between(radius, part.radius_m, part.cosine) * np.cos(n * theta)
-            total += _between(radius, part.radius_m, part.sine) * np.sin(n * theta)
+            total += _profile(radius, part.radius_m, part.cosine) * np.cos(n * theta)
+            total += _profile(radius, part.radius_m, part.sine) * np.sin(n * theta)
         return total
 
 
@@ -45,22 +47,32 @@ class ModeMethods(Entry):
         harmonics: tuple[Wave, ...]
 
     def shape(self, radius_m: npt.ArrayLike, angle_deg: npt.ArrayLike) -> ComplexArray:
-        """Complex deflection in the fixed frame, of any scale, NaN off the blade; the real part of its
-        product with e^(iωt) is the motion.
+        """Complex deflection in the fixed frame, of any scale; the real part of its product with e^(iωt) is
+        the motion.
 
         Parameters
         ----------
         radius_m, angle_deg : array_like
             Distances from the axis and angles from the cut, positive with the rotation; they are
             broadcast against each other.
+
+        Returns
+        -------
+        ndarray of complex
+            The deflection in the shape of both.
+
+        Raises
+        ------
+        ArgumentError
+            A radius is beside the blade.
         """
         radius, theta = points(radius_m, angle_deg)
         total = np.zeros(radius.shape, complex)
         for wave in self.harmonics:
             n = wave.nodal_diameters
             for part, turn in ((wave.cosine, np.cos(n * theta)), (wave.sine, np.sin(n * theta))):
-                real = _between(radius, self.radius_m, part.re)
-                imaginary = _between(radius, self.radius_m, part.im)
+                real = _profile(radius, self.radius_m, part.re)
+                imaginary = _profile(radius, self.radius_m, part.im)
                 total += (real + 1j * imaginary) * turn
         return total
 
@@ -68,7 +80,7 @@ class ModeMethods(Entry):
         self, radius_m: npt.ArrayLike, angle_deg: npt.ArrayLike, time_s: Number
     ) -> FloatArray:
         """Real deflection at ``radius_m`` and ``angle_deg`` as in :meth:`shape`, at ``time_s`` and
-        without growth: Re(shape · e^(iωt))."""
+        without growth: Re(shape · e^(iωt)), of the shape of all three."""
         turned = self.shape(radius_m, angle_deg) * np.exp(2j * np.pi * self.frequency_hz * numbers("time_s", time_s))
         return np.asarray(turned.real)
 
@@ -91,6 +103,11 @@ class BranchMethods(Entry):
         values are within 0.06 Hz and 0.1 1/s of the modes, of lines within 0.14 Hz and 0.6 1/s; where
         modes of a saw with material damping merge, the errors are larger. :meth:`Scene.modes` gives
         modes without interpolation.
+
+        Returns
+        -------
+        (ndarray, ndarray)
+            Both in the shape of ``rpm``.
 
         Examples
         --------
@@ -136,6 +153,15 @@ def points(radius_m: npt.ArrayLike, angle_deg: npt.ArrayLike) -> tuple[FloatArra
     """Points of the blade, broadcast against each other; the angles in radians."""
     radius, angle = np.broadcast_arrays(numbers("radius_m", radius_m), numbers("angle_deg", angle_deg))
     return radius, np.radians(angle)
+
+
+def _profile(radius: FloatArray, places: FloatArray, values: FloatArray) -> FloatArray:
+    """Values along the radius of the blade."""
+    found = _between(radius, places, values)
+    if np.isnan(found).any():
+        allowed = f"from {places[0]:.9g} to {places[-1]:.9g}, the radii of the blade"
+        raise refused("radius_m", float(radius[np.isnan(found)].flat[0]), allowed, "name a point of the blade")
+    return found
 
 
 def _between(at: Any, places: FloatArray, values: FloatArray, curve: Any = np.interp) -> FloatArray:

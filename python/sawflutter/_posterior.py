@@ -9,7 +9,7 @@ from ._reduced import BRANCHES, Reduced
 from .errors import refused
 
 # Largest number of speeds.
-_SPEEDS = 12
+MOST_SPEEDS = 12
 # Probabilities, before it is seen, that a peak is of a mode, at a multiple of the speed, or of nothing.
 _OF_MODE, _OF_ORDER, _OF_NOTHING = 0.6, 0.2, 0.2
 # Bounds of the standard deviation of the peaks in Hz; it is no smaller than the error of the small matrices.
@@ -26,8 +26,8 @@ class Measured:
     ) -> None:
         self._reduced, self._bounds, self._orders = reduced, bounds, np.array(orders)
         self.rpm = np.unique(rpm)
-        if len(self.rpm) > _SPEEDS:
-            self.rpm = self.rpm[np.unique(np.linspace(0, len(self.rpm) - 1, _SPEEDS).round().astype(int))]
+        if len(self.rpm) > MOST_SPEEDS:
+            self.rpm = self.rpm[np.unique(np.linspace(0, len(self.rpm) - 1, MOST_SPEEDS).round().astype(int))]
         middle = self.numbers(np.full((1, len(bounds) + 1), 0.5))
         top_hz = float(reduced.frequencies_hz(middle, self.rpm)[0, :, -1].min())
         used = np.isin(rpm, self.rpm) & (hz < top_hz)

@@ -23,7 +23,7 @@ from ._command import answered, in_options, png, wrapped
 from ._measured import titled
 from ._trend import is_steady
 from .errors import ArgumentError, InputError
-from .peaks import Peaks
+from .peaks import Peaks, listed
 from .plot.chart import Chart
 from .record_files import read_signal
 from .records import Record
@@ -152,14 +152,8 @@ def _rows(peaks: Peaks, saw: Scene | None, rpm: float | None) -> tuple[list[Row]
 
 def _written(out: Path, found: Sequence[_Read], rows: Sequence[Row]) -> list[str]:
     """Writes the files when all of them are complete, and gives their names."""
-    files: dict[str, bytes] = {}
-    lines = ["file,rpm,frequency_hz,amplitude,order"]
-    for of in found:
-        if of.peaks is not None:
-            each = zip(of.peaks.rpm, of.peaks.frequency_hz, of.peaks.amplitude, of.peaks.order)
-            name = '"' + of.name.replace('"', '""') + '"'
-            lines += [f"{name},{n:.6g},{hz:.6f},{size:.6g},{'' if np.isnan(k) else f'{k:g}'}" for n, hz, size, k in each]
-    files["peaks.csv"] = ("\n".join(lines) + "\n").encode()
+    peaks = [(of.name, of.peaks) for of in found if of.peaks is not None]
+    files: dict[str, bytes] = {"peaks.csv": listed(peaks).encode()}
     if rows:
         files["measured.csv"] = titled(rows).encode()
     for of in found:

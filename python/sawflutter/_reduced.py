@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+import time
 from collections.abc import Callable, Sequence
 
 import numpy as np
 
 from ._entry import ComplexArray, FloatArray
 from ._extras import extra
+from ._progress import Callback
 from .errors import ArgumentError
 from .scene import Scene
 
@@ -19,6 +21,8 @@ _SAMPLED, _COMPARED = 32, 6
 _HIGHEST, _MISSED = 36, 1e-4
 # Largest number of saws at whose matrices the others are interpolated.
 _MOST = 3000
+# Eigenproblems by which their time is measured.
+_TIMED = 48
 # Number of lowest frequencies that are computed.
 BRANCHES = 8
 
@@ -29,7 +33,8 @@ class Reduced:
     The modes of saws within the bounds give a basis of few functions by a singular value
     decomposition. The matrices in this basis are polynomials of the numbers, interpolated at the points
     of Chebyshev; a stiffness or a tension enters linearly. :attr:`error_hz` is the largest difference
-    of the lowest frequencies at rest and at ``top_rpm`` from those of the full matrices.
+    of the lowest frequencies at rest and at ``top_rpm`` from those of the full matrices. Before the matrices
+    of all points are computed, ``announce`` is called with the time in seconds that they will take.
     """
 
     error_hz: float
@@ -39,7 +44,8 @@ class Reduced:
         saw: Scene,
         bounds: Sequence[tuple[str, float, float]],
         top_rpm: float,
-        progress: Callable[[int, int], None],
+        announce: Callable[[float], None],
+        told: Callback,
     ) -> None:
         with extra("margin"):
             from scipy.stats import qmc
@@ -49,6 +55,7 @@ class Reduced:
         nominal = saw.matrices()
         self._basis = (nominal.max_diameters, nominal.radial_functions)
         speed = top_rpm * np.pi / 30.0
+        begin = time.perf_counter()
         drawn = qmc.Halton(len(bounds), seed=0).random(_SAMPLED + _COMPARED)
         sampled = [self._full(2.0 * share - 1.0) for share in drawn]
         modes = [_lowest(of, at) for of in sampled[:_SAMPLED] for at in (0.0, 0.7 * speed, speed)]
@@ -64,10 +71,12 @@ class Reduced:
                 "first, or free fewer numbers"
             )
             raise ArgumentError(message, "free")
+        saws = len(drawn) + len(bounds) * (_HIGHEST + 1)
+        announce(len(points) * (time.perf_counter() - begin) / saws)
         found = np.empty((len(points), 5, _SIZE, _SIZE))
         for number, point in enumerate(points):
             found[number] = self._small(self._full(point))
-            progress(number + 1, len(points))
+            told(number + 1, len(points), "saws between the bounds")
         self._degrees = [len(of) - 1 for of in nodes]
         coefficients = found.reshape(*(len(of) for of in nodes), -1)
         for axis, of in enumerate(nodes):
@@ -122,6 +131,14 @@ class Reduced:
         )
         known = np.isfinite(exact) & np.isfinite(small)
         return float(np.abs(exact - small)[known].max(initial=0.0))
+
+
+def solve_s() -> float:
+    """Time in seconds of an eigenproblem of small matrices, by a few of them."""
+    matrices = np.random.default_rng(0).standard_normal((_TIMED, 5, _SIZE, _SIZE))
+    begin = time.perf_counter()
+    _frequencies_hz(matrices, np.zeros(1))
+    return (time.perf_counter() - begin) / _TIMED
 
 
 def _nodes(degree: int) -> FloatArray:

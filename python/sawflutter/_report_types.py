@@ -72,9 +72,9 @@ class Shape(Entry):
     Attributes
     ----------
     nodal_diameters : Number n of nodal diameters.
-    radius_m : Radii of the shape.
-    cosine : Coefficient of cos nθ at these radii.
-    sine : Coefficient of sin nθ at these radii.
+    radius_m : Radii of the shape. Shape (n).
+    cosine : Coefficient of cos nθ at these radii. Shape (n).
+    sine : Coefficient of sin nθ at these radii. Shape (n).
     """
 
     nodal_diameters: int
@@ -156,13 +156,13 @@ class Instability(Entry):
     name : Waves of the band at its own speed: "2 diameters" for divergence, "4 reflected with 2
         forward" for flutter; null without a diagram. The branches are named by their modes at
         rest, which may differ.
-    branches : Numbers of the branches that become unstable; empty without a diagram.
+    branches : Numbers of the branches that become unstable; empty without a diagram. Shape (n).
     modes : Waves of the band one by one, reflected ones first: "4 diameters, reflected".
     counted_rpm : Intervals [from, to] in which the band counts as an instability: divergence as
         a whole; flutter of an undamped blade as a whole if its largest growth reaches the
-        threshold, of a damped one where its growth does.
+        threshold, of a damped one where its growth does. Shape (n, m).
     felt_rpm : The same for a hundredth of the threshold: outside these intervals a growth is
-        not felt.
+        not felt. Shape (n, m).
     saturated_amplitude_m : Amplitude to which flutter rises from a small motion at the speed of
         largest growth, limited by stretching, without damping; up to 1.41 times as large near
         one edge of the band. Null unless requested, for divergence, if only damping makes the
@@ -199,7 +199,7 @@ class Idling(Entry):
 
     Attributes
     ----------
-    critical_rpm : Critical speeds within the sweep, ascending.
+    critical_rpm : Critical speeds within the sweep, ascending. Shape (n).
     bands : Bands of instability within the sweep, by onset; their branches are not named.
     flutter_rpm : Flutter speed.
     first_merge_rpm : Onset of the first flutter band, including weak ones.
@@ -314,11 +314,12 @@ class Floquet(Entry):
 
     Attributes
     ----------
-    speeds_rpm : The three speeds.
+    speeds_rpm : The three speeds. Shape (n).
     growth_per_s : Largest growth rate ln|μ|/T at each, with the multipliers μ over the time T
-        in which one slot takes the place of the next; negative if every motion decays.
+        in which one slot takes the place of the next; negative if every motion decays. Shape
+        (n).
     error_per_s : Estimated error of each: its change with half as long steps of time, plus
-        three times that with a third of the coordinates left out.
+        three times that with a third of the coordinates left out. Shape (n).
     coordinates : Number of coordinates of the blade.
     steps : Number of steps of time in T, at the operating speed.
     """
@@ -345,7 +346,7 @@ class VerdictEntry(Entry):
     allowed_to_rpm : Highest speed up to which the answer is yes at every speed of the sweep
         from its start on; null if it is so at none.
     allowed_by : What ends these speeds, in words; null without such speeds.
-    windows_rpm : All ranges of speed in the sweep with the answer yes.
+    windows_rpm : All ranges of speed in the sweep with the answer yes. Shape (n, m).
     limits : Every limit, with its result at the operating speed; empty without one.
     floquet : Growth of a slotted saw beside guides, by Floquet multipliers; absent for other
         saws, without an operating speed, and for guides that they do not cover.
@@ -408,7 +409,7 @@ class Operating(Entry):
         at the operating speed.
     safe_window_rpm : The window without instability: speeds of the sweep around the operating
         speed at which no instability counts, and which are at least 5 % from critical speeds;
-        null if the saw is unstable or at a critical speed.
+        null if the saw is unstable or at a critical speed. Shape (n).
     growth_per_s : Re λ of the mode that grows fastest, or decays most slowly; null outside the
         sweep.
     frequency_hz : Im λ/2π of this mode.
@@ -479,8 +480,8 @@ class Complex(Entry):
 
     Attributes
     ----------
-    re : Real parts.
-    im : Imaginary parts.
+    re : Real parts. Shape (n).
+    im : Imaginary parts. Shape (n).
     """
 
     re: FloatArray
@@ -519,7 +520,7 @@ class EventShape(ModeMethods):
     rpm : Rotation speed.
     frequency_hz : |Im λ|/2π in the space-fixed frame.
     growth_per_s : Re λ.
-    radius_m : Radii of the profiles.
+    radius_m : Radii of the profiles. Shape (n).
     harmonics : Harmonics that are visible in the deflection, by descending share in the name.
         The guided blade also tilts (n = 1) and heaves (n = 0), which rotation does not soften:
         in the name of an event their share is zero.
@@ -654,7 +655,7 @@ class Certificate(Entry):
         which have none, of speeds at which the number of growing modes was compared with that
         of the bands.
     krein_violations : Number of speeds at which the comparison failed; 0 is expected.
-    violating_rpm : Speeds at which the comparison failed.
+    violating_rpm : Speeds at which the comparison failed. Shape (n).
     full_basis_counts : Number of counts of eigenvalues on the full model, independent of the
         reduced model, with which the modes were compared.
     uncertain_counts : Number of further counts that were uncertain, because an eigenvalue lies
@@ -670,8 +671,9 @@ class Certificate(Entry):
     interpolated : Number of ends of bands, and of speeds within them, that are interpolated,
         because no eigenvalue was found there; 0 is expected.
     unproven_rpm : The remaining intervals, which were searched but not proven: from and to.
+        Shape (n, m).
     unproven_counting_rpm : Parts of the remaining intervals in which, by this estimate, the
-        growth of an undetected band could reach the threshold: from and to.
+        growth of an undetected band could reach the threshold: from and to. Shape (n, m).
     max_backward_error : Largest backward error, on the full model, of the modes at rest, at
         three speeds of the diagram and at the peaks of the bands.
     proven_share : Share of the sweep that is proven to have no unlisted instability, rounded
@@ -717,14 +719,17 @@ class Branch(BranchMethods):
     nodal_diameters : Nodal diameters of the dominant harmonic at its first speed.
     nodal_circles : Nodal circles of that harmonic.
     direction : Direction of the wave on the blade at each speed, where no wave is `reflected`.
-    rpm : Rotation speeds, ascending.
+    rpm : Rotation speeds, ascending. Shape (n).
     frequency_hz : |Im λ|/2π in the space-fixed frame. Between computed speeds it is
-        interpolated, within 5e-4 of `complete_to_hz`, besides the error of the basis.
-    body_frequency_hz : Frequency of the dominant harmonic in the body frame.
+        interpolated, within 5e-4 of `complete_to_hz`, besides the error of the basis. Shape
+        (n).
+    body_frequency_hz : Frequency of the dominant harmonic in the body frame. Shape (n).
     growth_per_s : Re λ. Between computed speeds it is interpolated, within 3 % of fast decay
-        and of the fastest growth.
+        and of the fastest growth. Shape (n).
     krein_sign : Krein sign: +1, −1 (reflected), or 0 where the mode is unstable or damped.
+        Shape (n).
     dominant_harmonics : Nodal diameters of the dominant and of the next harmonic at each speed.
+        Shape (n, m).
     """
 
     branch: int
@@ -766,9 +771,9 @@ class RootPath(Entry):
     Attributes
     ----------
     name : Waves of this mode.
-    growth_per_s : Re λ.
-    frequency_hz : Im λ/2π.
-    krein_sign : Krein sign: +1, −1, or 0 inside the band.
+    growth_per_s : Re λ. Shape (n).
+    frequency_hz : Im λ/2π. Shape (n).
+    krein_sign : Krein sign: +1, −1, or 0 inside the band. Shape (n).
     """
 
     name: str
@@ -785,7 +790,7 @@ class RootLoci(Entry):
     ----------
     onset_rpm : Onset of the band.
     end_rpm : End of the band.
-    rpm : Rotation speeds, ascending, from before the onset to after the end.
+    rpm : Rotation speeds, ascending, from before the onset to after the end. Shape (n).
     paths : The eigenvalues of both modes, which are the growing and the decaying one inside the
         band.
     """
@@ -893,8 +898,8 @@ class HeatCurve(Entry):
     name : The wave that stands still; for a guided blade, that at the last peak.
     nodal_diameters : Nodal diameters of that wave, or of the one with the largest share.
     nodal_circles : Nodal circles of that wave.
-    rise_k : Peaks of the profile.
-    rpm : Critical speeds.
+    rise_k : Peaks of the profile. Shape (n).
+    rpm : Critical speeds. Shape (n).
     """
 
     name: str = field(default="")
@@ -912,7 +917,7 @@ class Heat(Entry):
     ----------
     rise_k : Peak of the profile in the scene: the rise of largest magnitude, at the rim for a
         shape.
-    profile_k : Temperature rises at the radii of the stress.
+    profile_k : Temperature rises at the radii of the stress. Shape (n).
     operating_limit : Peak at which the first critical speed equals the operating speed; null
         without an operating speed, or if the blade buckles at a smaller one.
     past_critical_when_cold : Whether the operating speed exceeds a critical speed of the cold
@@ -941,9 +946,9 @@ class Membrane(Entry):
 
     Attributes
     ----------
-    radius_m : Radii, ascending; twice where the hoop stress jumps.
-    radial_pa : σ_rr at these radii.
-    hoop_pa : σ_θθ at these radii.
+    radius_m : Radii, ascending; twice where the hoop stress jumps. Shape (n).
+    radial_pa : σ_rr at these radii. Shape (n).
+    hoop_pa : σ_θθ at these radii. Shape (n).
     roll_bands : Rolled bands of the scene.
     straight_edge : Light gap under the straight edge, if the scene has one.
     heat : Limits of temperature, if the scene has a temperature.
@@ -967,14 +972,14 @@ class Sensitivity(Entry):
     parameter : JSON path of the number in the scene.
     change : The change: "1 %" or "1 degree".
     critical_speeds_percent : Change of each critical speed up to the end of the sweep, in
-        percent; double ones of a free blade are listed twice.
+        percent; double ones of a free blade are listed twice. Shape (n).
     onsets_percent : Change of the onset of each reported band, in percent; null if the sweep
-        begins inside the band.
+        begins inside the band. Shape (n).
     flutter_speed_percent : Change of the flutter speed, in percent; null without one, or if the
         sweep begins above it.
     growth_per_s : dλ/dp of each mode at the operating speed (at the start of the sweep without
-        one), times the change: real part, growth in 1/s.
-    frequency_hz : Imaginary part of this change: frequency in Hz.
+        one), times the change: real part, growth in 1/s. Shape (n).
+    frequency_hz : Imaginary part of this change: frequency in Hz. Shape (n).
     """
 
     parameter: str
@@ -1014,7 +1019,7 @@ class SplitPairs(Entry):
         well inside the slots they are the filled hull of the bands with the lower branch, the
         mean and the upper branch, and 1 % beside it; without that hull all speeds above the
         first critical one. They are all speeds for guides beside the slots, and for an undamped
-        saw without multipliers. Null if nothing is fixed in space.
+        saw without multipliers. Null if nothing is fixed in space. Shape (n, m).
     """
 
     upper_critical_speeds: tuple[UpperCriticalSpeed, ...]
@@ -1111,8 +1116,8 @@ class RimStiffness(Entry):
     Attributes
     ----------
     rpm : Speeds from rest to just below the first critical one; empty if nothing holds the
-        blade.
-    n_per_m : Stiffness at these speeds.
+        blade. Shape (n).
+    n_per_m : Stiffness at these speeds. Shape (n).
     """
 
     rpm: FloatArray
@@ -1164,7 +1169,7 @@ class CheckReport(Entry):
     operating_rpm : Operating speed.
     to_rpm : Last speed of the sweep; results are limited to it.
     first_critical_rpm : First critical speed, also above the sweep; null if the blade has none.
-    critical_rpm : Critical speeds within the sweep, ascending.
+    critical_rpm : Critical speeds within the sweep, ascending. Shape (n).
     bands : Every band of instability within the sweep.
     flutter_threshold_per_s : Growth rate above which a band counts.
     rim_stiffness_at_rest_n_per_m : Lateral stiffness of a point of the rim at the middle of the
@@ -1387,10 +1392,10 @@ class VerdictMap(Entry):
     Attributes
     ----------
     guide_angle_deg : Angles of the first guide, with which all guides move; empty without
-        guides.
-    load_level : Factors of the radial and tangential forces.
+        guides. Shape (n).
+    load_level : Factors of the radial and tangential forces. Shape (n).
     growth_per_s : Growth rates, one row for each load level, one column for each angle; one
-        column without guides.
+        column without guides. Shape (n, m).
     verdict : Verdicts by these growth rates, in the same rows and columns.
     """
 
@@ -1412,6 +1417,7 @@ class Spline(Entry):
     stiffness_change : ‖change of K_e‖ / ‖K_e‖ from the assumed to the simulated reaction, on
         the lowest modes of the idle saw.
     force_n : Mean force of the arbor on the blade, towards the cut and a quarter turn further.
+        Shape (n).
     torque_n_m : Mean torque of the arbor on the blade.
     clearance_m : Gap between two flanks while the blade is centred.
     teeth_in_contact : Mean number of spline teeth in contact.
@@ -1421,10 +1427,10 @@ class Spline(Entry):
         average.
     unsteadiness : Measure of how far the motion is from being settled.
     settled_from : Index in the reported orbit above which the reaction was averaged.
-    time_s : Times of the orbit.
-    x_m : Position of the centre of the blade, towards the cut.
+    time_s : Times of the orbit. Shape (n).
+    x_m : Position of the centre of the blade, towards the cut. Shape (n).
     y_m : Position of the centre of the blade, a quarter turn further in the direction of
-        rotation.
+        rotation. Shape (n).
     """
 
     verdict: Verdict
@@ -1488,10 +1494,10 @@ class CutRun(Entry):
     forces_from_s : Start of the forces.
     forces_to_s : End of the forces.
     stretching : Results with stretching, if the scene requests it.
-    time_s : Times of the record.
+    time_s : Times of the record. Shape (n).
     deflection_m : Deflection at the probe, up to 1.5 % of its largest value off, because it is
         made of the 42 lowest modes with and without the forces; with stretching up to about 3
-        %, of 8 modes.
+        %, of 8 modes. Shape (n).
     map : Verdict over guide angle and load.
     spline : The cut with the reaction of the simulated spline teeth, if the scene requests it.
     """
@@ -1570,14 +1576,14 @@ class Arc(Entry):
 
     Attributes
     ----------
-    rpm : Rotation speeds, rising or falling.
-    deflection_m : Deflection at the probe.
-    largest_deflection_m : Largest magnitude of the deflection over the blade.
-    largest_slope : Largest slope of the blade.
+    rpm : Rotation speeds, rising or falling. Shape (n).
+    deflection_m : Deflection at the probe. Shape (n).
+    largest_deflection_m : Largest magnitude of the deflection over the blade. Shape (n).
+    largest_slope : Largest slope of the blade. Shape (n).
     frequencies_hz : Frequencies of small motions about the deflected blade in space, ascending,
-        up to `campbell.complete_to_hz`.
+        up to `campbell.complete_to_hz`. Shape (n, m).
     pad_forces_n : Force of each pad that lifts off on the blade beyond its gap, without that of
-        its film: a row for each such guide, in the order of the scene.
+        its film: a row for each such guide, in the order of the scene. Shape (n, m).
     """
 
     rpm: FloatArray
@@ -1654,11 +1660,11 @@ class EquilibriumCurve(Entry):
 
     Attributes
     ----------
-    rpm : Rotation speeds, not necessarily ascending.
-    deflection_m : Deflection at the probe.
-    largest_deflection_m : Largest magnitude of the deflection over the blade.
+    rpm : Rotation speeds, not necessarily ascending. Shape (n).
+    deflection_m : Deflection at the probe. Shape (n).
+    largest_deflection_m : Largest magnitude of the deflection over the blade. Shape (n).
     negative_eigenvalues : Number of directions in which the potential energy decreases; 0 for a
-        stable equilibrium.
+        stable equilibrium. Shape (n).
     turns : Folds and bifurcations of the curve.
     """
 
@@ -1803,9 +1809,9 @@ class Curves(Entry):
 
     Attributes
     ----------
-    rpm : Speeds of the curves.
-    before_hz : Frequencies before the fit.
-    fitted_hz : Frequencies after the fit.
+    rpm : Speeds of the curves. Shape (n).
+    before_hz : Frequencies before the fit. Shape (n, m).
+    fitted_hz : Frequencies after the fit. Shape (n, m).
     """
 
     rpm: FloatArray
@@ -1819,8 +1825,8 @@ class Start(Entry):
 
     Attributes
     ----------
-    from_ : Initial values.
-    to : Final values; null for a start that is not a valid saw.
+    from_ : Initial values. Shape (n).
+    to : Final values; null for a start that is not a valid saw. Shape (n).
     rms_hz : Root mean square of the residuals at the final values; null without them.
     """
 
@@ -1848,7 +1854,7 @@ class FitReport(Entry):
         values.
     other_minima : Other minima that fit about as well, best first: the measured frequencies do
         not tell their saws apart. The intervals of each hold if its own saw is the true one.
-    correlation : Correlation of the parameters, in their order.
+    correlation : Correlation of the parameters, in their order. Shape (n, m).
     measured_frequencies : Number of fitted frequencies.
     degrees_of_freedom : Number of measured frequencies minus number of free numbers.
     rms_hz : Root mean square of computed minus measured frequencies.
@@ -1893,8 +1899,8 @@ class AtAmplitude(Entry):
     ----------
     amplitude_m : Amplitude at the guides; null for the free blade and for the linear chart.
     stiffness_shares : Mean stiffness of each one-sided guide over the oscillation (describing
-        function), relative to its full stiffness.
-    critical_rpm : Critical speeds within the sweep.
+        function), relative to its full stiffness. Shape (n).
+    critical_rpm : Critical speeds within the sweep. Shape (n).
     bands : Bands of instability within the sweep.
     flutter_rpm : Flutter speed; null if no flutter counts within the sweep.
     """
@@ -1936,30 +1942,30 @@ class Deviation(Entry):
     angle_deg : Angle of the deflection, that of the cut.
     rpm : Speed of the map over gap and force.
     gap_factors : Gaps of the map relative to those of the scene, one row each; 0 stands for the
-        same guides without a gap, with their offsets and sides.
-    forces_n : Side forces of the map.
+        same guides without a gap, with their offsets and sides. Shape (n).
+    forces_n : Side forces of the map. Shape (n).
     deflection_m : Deflection at the cut, one row a gap; null where slopes exceed 0.1 and the
-        model is not valid.
-    largest_deflection_m : Largest deflection of the blade, as an absolute value.
+        model is not valid. Shape (n, m).
+    largest_deflection_m : Largest deflection of the blade, as an absolute value. Shape (n, m).
     pad_forces_n : Force of each one-sided pad on the blade, by contact and film: for each pad
         one row a gap. With the forces of other guides and that of the side force, the sum is
-        zero on a blade that slides along its arbor.
+        zero on a blade that slides along its arbor. Shape (n, m, k).
     max_deflection_m : Largest deflection at the cut that is allowed; null if none was given.
     force_within_n : Largest side force under which the deflection keeps this limit, for each
         gap; null where it exceeds the limit under the smallest force of the map. Empty without
-        a limit.
+        a limit. Shape (n).
     force_n : Side force of the map over gap and speed, and of the series over the speed with
         the gaps of the scene.
-    speeds_rpm : Speeds of the map over gap and speed and of the series.
+    speeds_rpm : Speeds of the map over gap and speed and of the series. Shape (n).
     deflection_over_gap_and_speed_m : Deflection at the cut over gap and speed, one row a gap;
-        null where the blade deflects by more than its thickness.
+        null where the blade deflects by more than its thickness. Shape (n, m).
     speed_within_rpm : Largest speed up to which the deflection at the cut keeps the limit under
         this force, for each gap, at most the first critical speed of the linear chart; null
-        where it exceeds the limit at rest. Empty without a limit.
+        where it exceeds the limit at rest. Empty without a limit. Shape (n).
     deflection_over_speed_m : Deflection at the cut at these speeds, with the gaps of the scene;
-        null where the blade deflects by more than its thickness.
+        null where the blade deflects by more than its thickness. Shape (n).
     pad_forces_over_speed_n : Forces of the pads at these speeds, one row a pad; null where the
-        blade deflects by more than its thickness.
+        blade deflects by more than its thickness. Shape (n, m).
     basis_error : Estimated error of the deflections over gap and force; null if none could be
         compared.
     """
@@ -1991,7 +1997,7 @@ class OscillationLine(Entry):
     order : Ratio of its frequency to that of rotation.
     name : Causes of this part, such as "run-out" or "flatness"; "contact" if only the contact
         of the pads has this order.
-    probe_m : Amplitude at the probe at the speeds of the series.
+    probe_m : Amplitude at the probe at the speeds of the series. Shape (n).
     """
 
     order: int
@@ -2008,10 +2014,10 @@ class OscillationPlace(Entry):
     mean_m : Mean deflection.
     amplitude_m : Half of the difference between the largest and the smallest deflection.
     largest_m : Largest deflection, as an absolute value.
-    lines_m : Amplitude of each part of the motion, in the order of `lines`.
+    lines_m : Amplitude of each part of the motion, in the order of `lines`. Shape (n).
     phase_deg : Phase of each part, −180 to 180: the angle by which it precedes the time at
         which the oscillating force, or the wave of a shape at the angle 0, is largest, in
-        angles of this part.
+        angles of this part. Shape (n).
     """
 
     mean_m: float
@@ -2089,17 +2095,18 @@ class Oscillation(Entry):
         the motion neglects, relative to its own; null if no motion was found.
     basis_error_share : Relative change of this amplitude with 24 modes at rest instead of 16;
         null if no motion was found.
-    rpm : Rotation speeds of the series below, ascending.
+    rpm : Rotation speeds of the series below, ascending. Shape (n).
     neglected_share : Amplitude at the cut of the harmonics that the motion neglects, relative
         to its own; null where no motion was found, and where it needs more than 24 harmonics.
+        Shape (n).
     probe_mean_m : Mean deflection at the probe, whose sign is the side to which the blade
         leans; null where no stable periodic motion was found, and where the blade deflects by
-        more than its thickness.
+        more than its thickness. Shape (n).
     probe_amplitude_m : Half of the difference between the largest and the smallest deflection
-        at the probe.
-    cut_mean_m : Mean deflection of the rim at the cut.
+        at the probe. Shape (n).
+    cut_mean_m : Mean deflection of the rim at the cut. Shape (n).
     cut_amplitude_m : Half of the difference between the largest and the smallest deflection of
-        the rim at the cut.
+        the rim at the cut. Shape (n).
     """
 
     force_n: float
@@ -2131,7 +2138,7 @@ class FrictionPad(Entry):
         heat; negative where a face is pressed in, null unless the temperature settles.
     face_forces_n : Force of the blade on the face at positive deflections and on the other
         face, by contact. A tilted pad is pressed on both, and both rub; their difference is the
-        force of the pad. Null unless the temperature settles.
+        force of the pad. Null unless the temperature settles. Shape (n).
     """
 
     guide: int
@@ -2155,14 +2162,14 @@ class Friction(Entry):
         or that of steel.
     power_w : Power of friction at all faces of all pads, coefficient × force on a face × speed
         of the blade there; null unless the temperature settles.
-    radii_m : Radii of the temperatures.
+    radii_m : Radii of the temperatures. Shape (n).
     rise_k : Temperature rise at these radii by friction alone, to be added to that of the
-        scene; empty unless it settles.
+        scene; empty unless it settles. Shape (n).
     cold_deflection_m : Deflection at the cut without this heat; null where the model is not
         valid.
     deflection_m : Deflection at the cut with this heat; null unless the temperature settles.
     pad_forces_n : Force of each one-sided pad on the blade, by contact and film, with this
-        heat: the sum over both of its faces. Empty unless the temperature settles.
+        heat: the sum over both of its faces. Empty unless the temperature settles. Shape (n).
     pads : Each one-sided pad, in the order of the scene.
     cold_first_critical_rpm : First critical speed of the linear chart without this heat.
     first_critical_rpm : First critical speed of the linear chart with this heat; null also if
@@ -2258,7 +2265,7 @@ class MapAxis(Entry):
     name : Name of the number.
     unit : Unit of the values; empty for a dimensionless number.
     values : Values, ascending; on a logarithmic scale if the last is at least ten times the
-        first.
+        first. Shape (n).
     of_scene : Value of the scene.
     """
 
@@ -2279,7 +2286,7 @@ class MappedSaw(Entry):
     y : Value of the number along the vertical axis; null for a map over the speed.
     first_critical_rpm : First critical speed; null if the blade has none.
     flutter_rpm : Flutter speed; null if no flutter counts within the sweep.
-    critical_rpm : Critical speeds within the sweep, ascending.
+    critical_rpm : Critical speeds within the sweep, ascending. Shape (n).
     bands : Bands of instability within the sweep, by onset.
     verdict : Whether the saw can run at the speed at which the saws are judged; null if it was
         not analysed.
@@ -2308,7 +2315,7 @@ class Contour(Entry):
     ----------
     quantity : Quantity that is constant along the line.
     rpm : Value of this quantity; for the limits, the speed at which the saws are judged.
-    points : Points of the line: values of x and of y.
+    points : Points of the line: values of x and of y. Shape (n, m).
     """
 
     quantity: Contoured
@@ -2371,7 +2378,7 @@ class Mode(ModeMethods):
     body_frequency_hz : Frequency of the dominant harmonic on the blade.
     growth_per_s : Re λ.
     krein_sign : Krein sign: +1, −1 (reflected), or 0 where the mode is unstable or damped.
-    radius_m : Radii of the profiles.
+    radius_m : Radii of the profiles. Shape (n).
     harmonics : Harmonics whose share of the energy is visible, the largest first.
     """
 
@@ -2404,7 +2411,7 @@ class Placed(Entry):
     more_rpm : Value of the goal if the number is larger by `offset`; null in the same cases.
     across_rpm : Smallest and largest value of the goal at five values of this number from bound
         to bound, while the others keep their best values; null if one of these saws misses a
-        limit or could not be computed.
+        limit or could not be computed. Shape (n).
     """
 
     path: str
@@ -2429,7 +2436,8 @@ class Outcome(Entry):
         or the width of the window.
     flutter_rpm : Flutter speed; null if it exceeds the sweep.
     first_critical_rpm : First critical speed.
-    window_rpm : Window without instability around the operating speed, if it is the goal.
+    window_rpm : Window without instability around the operating speed, if it is the goal. Shape
+        (n).
     deflection_m : Deflection at the cut, as an absolute value, if it has a limit.
     kept : Whether the limits of the critical speed and of the deflection are kept.
     """
@@ -2448,7 +2456,7 @@ class Neighbour(Entry):
 
     Attributes
     ----------
-    values : Values of the numbers, in their order.
+    values : Values of the numbers, in their order. Shape (n).
     outcome : Result of the saw; null if it could not be computed.
     """
 
@@ -2496,7 +2504,7 @@ class FrontSaw(Entry):
 
     Attributes
     ----------
-    values : Values of the numbers, in their order.
+    values : Values of the numbers, in their order. Shape (n).
     flutter_rpm : Flutter speed; null if it exceeds the sweep.
     first_critical_rpm : First critical speed.
     worst_goal_rpm : The goal in the worst case of the tolerances.
@@ -2518,12 +2526,13 @@ class Map(Entry):
     Attributes
     ----------
     x_path : JSON path of the number along x.
-    x : Values along x.
+    x : Values along x. Shape (n).
     y_path : JSON path of the number along y; null if only one is free.
-    y : Values along y.
+    y : Values along y. Shape (n).
     goal_rpm : The goal, one row for each value of y; null if there is no such saw or it could
-        not be computed.
-    kept : Whether the limits of the critical speed and of the deflection are kept.
+        not be computed. Shape (n, m).
+    kept : Whether the limits of the critical speed and of the deflection are kept. Shape (n,
+        m).
     """
 
     x_path: str
@@ -2737,11 +2746,11 @@ class ResponseLine(Entry):
     order : Ratio of the frequency to the rotation speed; 0 for a static deflection.
     name : Name: "run-out, 1×".
     amplitude_m : Amplitude at the probe; null where the saw is unstable, and where the
-        deflection exceeds the linear model anywhere on the rim.
+        deflection exceeds the linear model anywhere on the rim. Shape (n).
     phase_deg : Phase at the probe, −180 to 180: positive if the deflection precedes the
         excitation. The excitation is largest at the time at which its maximum passes the angle
-        0, or the force is largest.
-    at_cut_m : Amplitude at the rim at the cut.
+        0, or the force is largest. Shape (n).
+    at_cut_m : Amplitude at the rim at the cut. Shape (n).
     resonances : Speeds of the sweep at which a natural frequency equals that of the excitation,
         and the excitation works on the mode.
     resonance_error : Largest relative change of these speeds on a larger basis; null for an
@@ -2765,7 +2774,7 @@ class OperatingResponse(Entry):
     Attributes
     ----------
     rpm : The operating speed.
-    amplitude_m : Amplitude of each line at the probe.
+    amplitude_m : Amplitude of each line at the probe. Shape (n).
     board_deviation_m : Deviation of the board: that under the constant force, `constant`, and
         all amplitudes at the cut.
     constant : Deflection under the constant lateral force, by the contact of guides that have a
@@ -2790,12 +2799,12 @@ class FrequencyResponse(Entry):
     rpm : Rotation speed.
     force_radius_m : Distance of the force from the axis.
     force_angle_deg : Angle of the force.
-    frequency_hz : Frequencies, ascending.
+    frequency_hz : Frequencies, ascending. Shape (n).
     receptance_m_per_n : Amplitude for one newton; null where it grows without bound, and
-        everywhere if the saw is unstable at the speed.
-    phase_deg : Phase, −180 to 180: negative if the deflection follows the force.
+        everywhere if the saw is unstable at the speed. Shape (n).
+    phase_deg : Phase, −180 to 180: negative if the deflection follows the force. Shape (n).
     unbounded_hz : Frequencies at which the deflection grows without bound: the natural
-        frequencies that the force excites, without damping.
+        frequencies that the force excites, without damping. Shape (n).
     """
 
     rpm: float
@@ -2829,11 +2838,12 @@ class ResponseReport(Entry):
     damped : Whether any term of the equation of motion dissipates energy; without damping
         amplitudes grow without bound at a resonance.
     linear_limit_m : Largest amplitude that is reported: five times the smallest thickness.
-    rpm : Rotation speeds, ascending, the same for every line.
+    rpm : Rotation speeds, ascending, the same for every line. Shape (n).
     lines : Responses, one for each cause and order of the rotation speed.
     board_deviation_m : Largest distance of the cut surface from the middle plane of the blade
         at rest, at each speed, with linear guides: the static deflection of the rim at the cut
         and all amplitudes there, as if their maxima coincided; null where one of them is null.
+        Shape (n).
     constant_force_n : The constant lateral force; zero without one.
     constant_force_cause : Where this force comes from; null without one.
     operating : Deflections at the operating speed; null if it is not within the sweep.
@@ -2955,7 +2965,7 @@ class SizedLimit(Entry):
     key : Short name of the limit, for programs, as in the report of a check.
     name : Requirement in words.
     margins : Distance from the limit relative to it, negative if it is not kept; null if it has
-        no number there, or the saw was refused.
+        no number there, or the saw was refused. Shape (n).
     """
 
     key: str
@@ -3068,7 +3078,7 @@ class SizeReport(Entry):
     from_ : First value that was tried.
     to : Last value that was tried.
     operating_rpm : Operating speed; null if it is the number itself.
-    values : Values that were tried, ascending.
+    values : Values that were tried, ascending. Shape (n).
     answers : Whether the saw can run at each of these values; null where it was refused.
     limits : Every limit, with its margin at each of these values.
     windows : Ranges of values in which the saw keeps all limits.
@@ -3227,11 +3237,12 @@ class ResponseResponseReport(Entry):
     damped : Whether any term of the equation of motion dissipates energy; without damping
         amplitudes grow without bound at a resonance.
     linear_limit_m : Largest amplitude that is reported: five times the smallest thickness.
-    rpm : Rotation speeds, ascending, the same for every line.
+    rpm : Rotation speeds, ascending, the same for every line. Shape (n).
     lines : Responses, one for each cause and order of the rotation speed.
     board_deviation_m : Largest distance of the cut surface from the middle plane of the blade
         at rest, at each speed, with linear guides: the static deflection of the rim at the cut
         and all amplitudes there, as if their maxima coincided; null where one of them is null.
+        Shape (n).
     constant_force_n : The constant lateral force; zero without one.
     constant_force_cause : Where this force comes from; null without one.
     operating : Deflections at the operating speed; null if it is not within the sweep.
@@ -3296,10 +3307,10 @@ class Stretching(Entry):
     largest_slope : Largest slope of the blade.
     valid_until_rpm : Speed above which slopes exceed 0.1 and the record ends; null if they do
         not.
-    rpm : Speeds of the spectrum.
-    frequency_hz : Frequencies of the spectrum.
+    rpm : Speeds of the spectrum. Shape (n).
+    frequency_hz : Frequencies of the spectrum. Shape (n).
     amplitude_m : Amplitude at the probe about a straight line, with Hann's window, one row for
-        each speed.
+        each speed. Shape (n, m).
     """
 
     shapes: int
@@ -3317,9 +3328,9 @@ class Response(Entry):
 
     Attributes
     ----------
-    rpm : Rotation speeds.
-    frequency_hz : Frequencies of the force.
-    receptance_m_per_n : |w/F|, one row for each speed.
+    rpm : Rotation speeds. Shape (n).
+    frequency_hz : Frequencies of the force. Shape (n).
+    receptance_m_per_n : |w/F|, one row for each speed. Shape (n, m).
     """
 
     rpm: FloatArray
@@ -3347,8 +3358,8 @@ class RunUpReport(Entry):
     linear_limit_m : Largest deflection that is given; beyond it the linear model is not valid.
     linear_until_rpm : Speed at which the deflection of the rim exceeds this limit and the
         record ends; null if it does not.
-    rpm : Speeds of the record.
-    deflection_m : Deflection at the probe.
+    rpm : Speeds of the record. Shape (n).
+    deflection_m : Deflection at the probe. Shape (n).
     largest_deflection_m : Largest magnitude of the deflection of the rim, or of the probe if
         that is larger.
     largest_deflection_rpm : Speed of the largest deflection.
@@ -3404,7 +3415,7 @@ class SizeSizeReport(Entry):
     from_ : First value that was tried.
     to : Last value that was tried.
     operating_rpm : Operating speed; null if it is the number itself.
-    values : Values that were tried, ascending.
+    values : Values that were tried, ascending. Shape (n).
     answers : Whether the saw can run at each of these values; null where it was refused.
     limits : Every limit, with its margin at each of these values.
     windows : Ranges of values in which the saw keeps all limits.
@@ -3475,7 +3486,7 @@ class Histogram(Entry):
     ----------
     from_rpm : Lowest speed.
     to_rpm : Highest speed.
-    counts : Number of saws in each bar.
+    counts : Number of saws in each bar. Shape (n).
     """
 
     from_rpm: float
@@ -3534,7 +3545,7 @@ class Passing(Entry):
     confidence : Confidence of the interval.
     interval : Interval of the probability (by Clopper and Pearson for independent saws;
         scrambled Sobol points are more even). Null for a grid, whose share is exact, and for
-        all saws of several groups, because the groups have the same deviations.
+        all saws of several groups, because the groups have the same deviations. Shape (n).
     criteria : Number of saws that keep each limit.
     """
 
@@ -3679,7 +3690,7 @@ class WorstSaw(Entry):
     ----------
     saw : Number of the saw in the study.
     rpm : First critical speed or flutter speed of the saw.
-    values : Values of the varying numbers, in the order of the study.
+    values : Values of the varying numbers, in the order of the study. Shape (n).
     """
 
     saw: int
@@ -3798,15 +3809,16 @@ class Lobes(Entry):
 
     Attributes
     ----------
-    rpm : Rotation speeds.
+    rpm : Rotation speeds. Shape (n).
     critical_stiffness_n_per_m : Smallest cutting stiffness at which a vibration grows; null if
-        it exceeds `ceiling_n_per_m`, zero if a motion grows without the delayed force.
-    frequency_hz : Frequency of this motion.
+        it exceeds `ceiling_n_per_m`, zero if a motion grows without the delayed force. Shape
+        (n).
+    frequency_hz : Frequency of this motion. Shape (n).
     stable_to_n_per_m : Cutting stiffness up to which it is known that no vibration grows: the
         critical one, or the largest of the search; less where only damping prevents the growth
-        of omitted modes, zero where the count does not confirm it.
+        of omitted modes, zero where the count does not confirm it. Shape (n).
     confirmed : Whether the argument principle confirms that no vibration grows just below this
-        stiffness.
+        stiffness. Shape (n).
     """
 
     rpm: FloatArray
@@ -3831,7 +3843,7 @@ class WashboardReport(Entry):
     verdict : Whether a vibration grows at that speed.
     tooth_passing_hz : Number of teeth that pass per second.
     delays_s : Times between successive teeth: one for even teeth, otherwise one for each pitch
-        that repeats.
+        that repeats. Shape (n).
     stiffness_n_per_m : Lateral cutting stiffness of all teeth in the cut together.
     overlap : Share of a tooth's cut on the surface left by the preceding tooth.
     arc_deg : Arc of the rim on which the force acts.

@@ -6,6 +6,8 @@ import base64
 import json
 import os
 
+from collections.abc import Callable
+from functools import partial
 from operator import attrgetter
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, ClassVar, TypeVar
@@ -14,6 +16,7 @@ from . import _native
 from ._drawn import Drawn
 from ._entry import Entry
 from ._extras import entries
+from ._saving import Contents, csv, write
 from .errors import InputError, refused
 from .plot.chart import Chart
 from .plot.described import read
@@ -46,9 +49,21 @@ class Report(Drawn):
         return self._text
 
     def save(self, path: str | os.PathLike[str]) -> None:
-        """Writes the report to a path, the same bytes as the program; :func:`sawflutter.load` reads
-        it. A study also writes the table of its saws beside it, with the ending .csv."""
-        Path(path).write_bytes(self._text.encode())
+        """Writes a file by the ending of its name: .json the report, the same bytes as the program, which
+        :func:`sawflutter.load` reads; .csv the table of :meth:`to_dataframe`; .html one self-contained page
+        with verdict, inputs, tables, figures, warnings and certificate; .svg or .png the figure of this
+        name, of ``figure_names``, or the first one.
+
+        Raises
+        ------
+        ArgumentError
+            The name has another ending, or the report has no such page or figure; no file is written.
+        """
+        write(path, self._contents(Path(path).name))
+
+    def _contents(self, name: str) -> Contents:
+        """Functions that make the content of a file of this name, by its ending."""
+        return {".json": self._text.encode, ".csv": lambda: csv(self.to_dataframe())}
 
     def to_dataframe(self) -> pd.DataFrame:
         """The results as a table, which needs pandas. It has one row for each limit of a check,
@@ -131,23 +146,15 @@ class Result(Report, Entry):
         or SVG; None if this report has no such figure."""
         return _native.picture(self._command, name, self._text)
 
-    def save(self, path: str | os.PathLike[str]) -> None:
-        """Writes a file, the same bytes as the program, by the ending of its name: .html one
-        self-contained page with verdict, inputs, tables, figures, warnings and certificate; .csv the
-        table of a Campbell diagram; any other the report as JSON, which :func:`sawflutter.load` reads.
-        """
-        place = Path(path)
-        place.write_bytes(self._content(place.suffix.lower()).encode())
-
-    def _content(self, ending: str) -> str:
-        if ending == ".html":
-            page = _native.page(self._command, self._text)
-            if page is None:
-                raise TypeError(f"there is no page of {self._command!r}; save its figures and its table")
-            return page
-        if ending == ".csv":
-            raise TypeError(f"{self._command!r} has no table of its own; to_dataframe().to_csv(path) writes one")
-        return self._text
+    def _contents(self, name: str) -> Contents:
+        ending = Path(name).suffix.lower()
+        own = [figure for figure in self.figure_names if figure.endswith(ending)]
+        figure = name if name in own or not own else own[0]
+        made = {
+            ".html": lambda: (_native.page(self._command, self._text) or "").encode(),
+            **dict.fromkeys((".svg", ".png"), lambda: self.figure(figure)),
+        }
+        return {**super()._contents(name), **{of: partial(_made, name, make) for of, make in made.items()}}
 
     def chart(self, name: str | None = None) -> Chart:
         """The figure of the program as numbers, by its ``name``, one of :attr:`figure_names` without its
@@ -182,3 +189,11 @@ class Result(Report, Entry):
             text += f"<img alt='' style='width:34em;max-width:100%' src='{source}'>"
         style = "display:flex;flex-wrap:wrap;gap:1.5em;align-items:flex-start"
         return f"<div style='{style}'>{text}</div>"
+
+
+def _made(name: str, make: Callable[[], bytes | None]) -> bytes:
+    """The page or figure of a report that has one."""
+    content = make()
+    if not content:
+        raise refused("path", name, "the name of a page or a figure of this report", "save the report as .json")
+    return content

@@ -6,15 +6,21 @@ from __future__ import annotations
 import json
 from dataclasses import dataclass
 from math import hypot
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from . import _native
 from ._drawn import Drawn
 from ._entry import Entry, FloatArray
+from ._extras import extra, frame, plain
 from ._report_types import DesignReport, FitReport, Instability, PlaceReport, Setting, SizeReport
 from ._result import Report, Result
+from ._saving import Tabled
 from ._values import Number, number
 from .errors import refused
+
+if TYPE_CHECKING:
+    import pandas as pd
+    import xarray as xr
 
 
 class FitResults(Result, FitReport):
@@ -161,7 +167,7 @@ class TradeoffResults(Report):
 
 
 @dataclass(frozen=True, eq=False, repr=False)
-class StiffnessMap(Drawn, Entry):
+class StiffnessMap(Tabled, Drawn, Entry):
     """Critical speeds of a saw over the stiffness of its guides, like the critical speed map of
     rotor dynamics over bearing stiffness. :meth:`sawflutter.Scene.run_stiffness_map` returns
     it.
@@ -169,9 +175,10 @@ class StiffnessMap(Drawn, Entry):
     Attributes
     ----------
     name : title of the scene.
-    stiffness_n_per_m : stiffness of each guide that is varied.
-    critical_rpm : critical speeds within the sweep, ascending, a row each; NaN where there are fewer.
-    flutter_rpm : flutter speed of each; NaN where there is none within the sweep.
+    stiffness_n_per_m : stiffness of each guide that is varied, of the shape (values).
+    critical_rpm : critical speeds within the sweep, ascending, of the shape (values, critical speeds); NaN
+        where there are fewer.
+    flutter_rpm : flutter speed of each, of the shape (values); NaN where there is none within the sweep.
     """
 
     name: str
@@ -179,19 +186,42 @@ class StiffnessMap(Drawn, Entry):
     critical_rpm: FloatArray
     flutter_rpm: FloatArray
 
+    def to_dataframe(self) -> pd.DataFrame:
+        """A row for each stiffness with the critical speeds ``critical_1_rpm`` and so on, ascending, NaN where
+        there are fewer, and the flutter speed; needs pandas."""
+        critical = {f"critical_{number}_rpm": of for number, of in enumerate(self.critical_rpm.T, 1)}
+        return frame({"stiffness_n_per_m": self.stiffness_n_per_m, **critical, "flutter_rpm": self.flutter_rpm})
+
+    def to_xarray(self) -> xr.Dataset:
+        """``critical_rpm`` over stiffness and number, ``flutter_rpm`` over stiffness, as labelled arrays; needs
+        xarray."""
+        with extra("xarray"):
+            import xarray as xr
+
+        units, along = {"units": "rpm"}, "stiffness_n_per_m"
+        variables = {
+            "critical_rpm": ((along, "number"), self.critical_rpm, units),
+            "flutter_rpm": (along, self.flutter_rpm, units),
+        }
+        coordinates = {
+            along: (along, self.stiffness_n_per_m, {"units": "N/m"}),
+            "number": range(1, 1 + self.critical_rpm.shape[1]),
+        }
+        return xr.Dataset(variables, coordinates, {"scene": self.name})
+
     def _drawing(self) -> str:
         return _native.stiffness_chart(self)
 
 
 @dataclass(frozen=True, eq=False, repr=False)
-class Speeds(Entry):
+class Speeds(Tabled, Entry):
     """Speeds of a saw, of :meth:`sawflutter.Scene.speeds`.
 
     Attributes
     ----------
     name : title of the scene.
     to_rpm : last speed; the first one is 0.
-    critical_rpm : critical speeds up to the last speed, ascending.
+    critical_rpm : critical speeds up to the last speed, ascending, of the shape (critical speeds).
     first_critical_rpm : first critical speed, also above the last speed; None if there is none.
     flutter_rpm : flutter speed; None if there is none up to the last speed.
     bands : bands of instability up to the last speed, ascending.
@@ -205,6 +235,15 @@ class Speeds(Entry):
     flutter_rpm: float | None
     bands: tuple[Instability, ...]
     estimated_relative_error: float
+
+    def to_dataframe(self) -> pd.DataFrame:
+        """A row for each critical speed and each band of instability, by ascending speed, with the columns
+        ``event`` (critical speed, divergence, flutter), ``from_rpm``, ``to_rpm``, and those of a band; needs
+        pandas."""
+        at = [{"event": "critical speed", "from_rpm": rpm, "to_rpm": rpm} for rpm in self.critical_rpm.tolist()]
+        bands = [{"event": band["kind"], **band} for band in plain(self.bands)]
+        table = frame(sorted([*at, *bands], key=lambda row: row["from_rpm"]))
+        return table.drop(columns="kind", errors="ignore")
 
     def __repr__(self) -> str:
         critical, flutter = (

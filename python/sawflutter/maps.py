@@ -8,13 +8,14 @@ from typing import TYPE_CHECKING, TypeAlias
 import numpy as np
 
 from ._entry import FloatArray, array
-from ._extras import extra
+from ._extras import entries, extra
 from ._report_types import MapReport
 from ._result import Result
 from ._values import Number, number
 from .errors import refused
 
 if TYPE_CHECKING:
+    import pandas as pd
     import xarray as xr
 
 Along: TypeAlias = "tuple[str, Number, Number] | Mapping[str, tuple[Number, Number]]"
@@ -24,7 +25,17 @@ Along: TypeAlias = "tuple[str, Number, Number] | Mapping[str, tuple[Number, Numb
 class MapResults(Result, MapReport):
     """Stability over one number of a saw and the speed, or over two numbers."""
 
-    _command, _rows_of = "map", "saws"
+    _command = "map"
+
+    def to_dataframe(self) -> pd.DataFrame:
+        """A row for each saw, with the values of the numbers by their paths, first critical speed, flutter
+        speed, verdict (yes, at_risk, no; blank for a saw that is not analysed) and its cause; needs pandas."""
+        paths = {"x": self.x.path} if self.y is None else {"x": self.x.path, "y": self.y.path}
+        table = entries(self.saws).drop(columns={"y"} - set(paths)).rename(columns=paths)
+        verdicts = [saw.verdict for saw in self.saws]
+        table["verdict"] = [None if verdict is None else verdict.answer for verdict in verdicts]
+        table["cause"] = [None if verdict is None else verdict.cause for verdict in verdicts]
+        return table
 
     @property
     def shape(self) -> tuple[int, ...]:

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+import logging
+import time
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -11,16 +13,14 @@ import numpy.typing as npt
 from ._drawn import Drawn
 from ._entry import Entry, FloatArray, array
 from ._extras import extra
-from ._posterior import Measured, most_telling
-from ._reduced import Reduced
+from ._posterior import MOST_SPEEDS, Measured, most_telling
+from ._progress import Callback
+from ._reduced import Reduced, solve_s
 from ._values import Number, number
 from .errors import refused
 from .plot.chart import Area, Chart, Line, Panel, Points, Shape, Upright, colours
 from .plot.look import with_harmonics
 from .scene import Scene
-
-Progress = Callable[[str, int, int], None]
-"""Called with what is done, how much of it, and of how much."""
 
 # Walkers of the ensemble, saws from which the best are its first ones, and saws that are analysed fully.
 _WALKERS, _FIRST, _ANALYSED = 48, 768, 100
@@ -31,26 +31,30 @@ _TRIED = 7
 # Independent saws that suffice for an interval of 95 %, and the share of the bounds that an interval of a determined
 # number does not exceed. Equal probability has 0.95.
 _ENOUGH, _WIDE = 400, 0.8
+# Time in seconds from which on it is announced, as for a chart.
+_LONG_S = 10.0
+_LOGGER = logging.getLogger(__package__)
 # Largest error of the interpolation, as a share of the deviation of the peaks: it would widen intervals by a tenth.
 _COARSE = 0.5
 
 
 @dataclass(frozen=True, eq=False, repr=False)
 class MeasuredMargin(Drawn, Entry):
-    """Saws that agree with measured peaks, and their speeds; :func:`measured_margin` makes it.
+    """Saws that agree with measured peaks, and their speeds; :meth:`Scene.measured_margin` makes it.
 
     Attributes
     ----------
     name : title of the scene.
     paths : free numbers.
-    numbers : their values, a row for each saw.
-    within : lower and upper ends of the intervals of 95 % of the numbers, as shares of their bounds.
+    numbers : their values, a row for each saw and a column for each number.
+    within : lower and upper ends of the intervals of 95 % of the numbers, as shares of their bounds, of the
+        shape (2, numbers).
     deviation_hz : standard deviation of the peaks, for each saw.
     critical_rpm, flutter_rpm : first critical speed and flutter speed of each saw; NaN if it has none up
         to ``to_rpm``.
     to_rpm : last speed of the analyses.
     margin : share of the deciding speed at which the saw may run.
-    rpm, peak_hz : the peaks that are used.
+    rpm, peak_hz : the peaks that are used, of the shape (peaks).
     mode : most likely place of the mode of each peak among the frequencies in ascending order, from 1; 0
         for a multiple of the speed, and -1 for nothing.
     probability : its probability.
@@ -171,40 +175,13 @@ def measured_margin(
     rpm: npt.ArrayLike,
     peak_hz: npt.ArrayLike,
     free: Mapping[str, tuple[Number, Number]],
-    *,
-    orders: Sequence[Number] = (1, 2),
-    margin: Number = 0.85,
-    steps: int = 200,
-    seed: int = 0,
-    progress: Progress = lambda what, done, of: None,
+    orders: Sequence[Number],
+    margin: Number,
+    steps: int,
+    seed: int,
+    told: Callback,
 ) -> MeasuredMargin:
-    """How fast a saw may turn whose frequencies were measured over the speed, without knowing of which
-    modes they are.
-
-    Each peak is of one of the lowest frequencies, with normal errors of a common unknown deviation, at
-    a multiple of the speed, or of nothing. The free numbers are equally probable between their bounds,
-    on a logarithmic scale if these are a decade apart. An ensemble sampler, emcee, draws saws from what
-    follows for them; 100 of them are analysed fully.
-
-    Parameters
-    ----------
-    saw : Scene
-        The saw, which idles: its cut is left out.
-    rpm, peak_hz : array_like
-        Speed and frequency of each peak, such as those of :class:`Peaks`, of which up to 12 speeds are used.
-    free : mapping
-        Path of each number that is not known, with its bounds.
-    orders : sequence of float
-        Multiples of the speed at which peaks may be.
-    margin : float
-        Share of the deciding speed at which the saw may run.
-    steps : int
-        Steps of the ensemble, each with 48 saws.
-    seed : int
-        Seed of the sampler.
-    progress : callable, optional
-        Called with what is done, how much of it, and of how much.
-    """
+    """The result of :meth:`Scene.measured_margin` for an idling saw."""
     with extra("margin"):
         import emcee
         from scipy.stats import qmc
@@ -218,10 +195,9 @@ def measured_margin(
         raise refused("free", None, "given", "name a number that is not known, with its bounds")
     bounds = [(path, number(path, low), number(path, high)) for path, (low, high) in free.items()]
     speeds, hz = _checked(rpm, peak_hz)
-    # Peaks over the speed are those of the idle saw.
-    saw = saw.replace({"cut": None})
     top = float(speeds.max())
-    reduced = Reduced(saw, bounds, max(top, 1.0), lambda done, of: progress("saws between the bounds", done, of))
+    solves = (_FIRST + _WALKERS * steps) * min(len(np.unique(speeds)), MOST_SPEEDS)
+    reduced = Reduced(saw, bounds, max(top, 1.0), lambda seconds: _announce(saw, seconds, solves), told)
     measured = Measured(reduced, bounds, speeds, hz, [number("orders", of) for of in orders])
     names = len(bounds) + 1
     first = qmc.Halton(names, seed=seed).random(_FIRST)
@@ -232,7 +208,7 @@ def measured_margin(
     sampler = emcee.EnsembleSampler(_WALKERS, names, measured.logarithm, vectorize=True, moves=moves)
     sampler.random_state = np.random.RandomState(seed).get_state()
     for done, _ in enumerate(sampler.sample(best, iterations=steps, skip_initial_state_check=True)):
-        progress("steps", done + 1, steps)
+        told(done + 1, steps, "steps")
     chain = sampler.get_chain(discard=int(_LEFT_OUT * steps))
     flat = chain.reshape(-1, names)
     independent = len(flat) / float(np.max(emcee.autocorr.integrated_time(chain, tol=0)))
@@ -241,7 +217,7 @@ def measured_margin(
     found = []
     for done, row in enumerate(numbers):
         found.append(saw.replace(dict(zip(free, row.tolist()))).speeds(beside=saw))
-        progress("analyses", done + 1, _ANALYSED)
+        told(done + 1, _ANALYSED, "analyses")
     to_rpm = min(of.to_rpm for of in found)
     critical, flutter = (
         np.array([np.nan if one is None or one > to_rpm else one for one in of])
@@ -260,6 +236,21 @@ def measured_margin(
         to_rpm, share, array(measured.rpm[measured.speed]), array(measured.hz), array(mode), array(probability),
         next_rpm, next_hz, place, next_share, independent, reduced.error_hz, array(speeds_hz), array(at_rpm),
     )  # fmt: skip
+
+
+def _announce(saw: Scene, of_reduction_s: float, solves: int) -> None:
+    """Says how long the computation will take, by the times of single steps."""
+    saw.speeds(beside=saw)
+    begin = time.perf_counter()
+    saw.speeds(beside=saw)
+    of_analyses_s = _ANALYSED * (time.perf_counter() - begin)
+    of_steps_s = solves * solve_s()
+    if (seconds := of_reduction_s + of_steps_s + of_analyses_s) > _LONG_S:
+        _LOGGER.warning(
+            "the margin takes about %.0f seconds, a rough estimate: %.0f for the saws between the bounds, %.0f for the "
+            "steps, %.0f for the analyses; where that is too long, take fewer steps, narrower bounds or "
+            'accuracy="draft"', seconds, of_reduction_s, of_steps_s, of_analyses_s,
+        )  # fmt: skip
 
 
 def _checked(rpm: npt.ArrayLike, peak_hz: npt.ArrayLike) -> tuple[FloatArray, FloatArray]:

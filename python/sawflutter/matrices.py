@@ -63,7 +63,17 @@ class Matrices(Entry):
         ----------
         radius_m, angle_deg : array_like
             Distances from the axis and angles from the cut, positive with the rotation; they are
-            broadcast against each other.
+            broadcast against each other; also texts with a unit.
+
+        Returns
+        -------
+        ndarray
+            Functions in the shape of both with (functions) as the last axis.
+
+        Raises
+        ------
+        ArgumentError
+            A radius is beside the blade.
 
         Examples
         --------
@@ -112,11 +122,20 @@ class Matrices(Entry):
             Rotation speed, of any size.
         inputs : array_like
             Points at which forces act, fixed in space: distance from the axis in m, angle from the
-            cut in degrees.
+            cut in degrees, or texts with a unit; of the shape (inputs, 2), or (2) for one.
         outputs : array_like
-            Points at which deflections are read.
+            Points at which deflections are read, likewise.
         to_hz : float, optional
             Keeps the modes up to this frequency, see :meth:`StateSpace.reduced`; all by default.
+
+        Returns
+        -------
+        StateSpace
+
+        Raises
+        ------
+        ArgumentError
+            A point is beside the blade, or no point is given.
         """
         forces, probes = (self._at_points(*pair) for pair in (("inputs", inputs), ("outputs", outputs)))
         size = len(self.stiffness)
@@ -130,7 +149,18 @@ class Matrices(Entry):
     ) -> ComplexArray:
         """Deflections at points for forces of one newton at others, at a speed and at frequencies: the
         :meth:`StateSpace.response` to ``frequency_hz``, with ``rpm``, ``inputs`` and ``outputs`` of
-        :meth:`state_space`."""
+        :meth:`state_space`.
+
+        Returns
+        -------
+        ndarray of complex
+            Deflections in m/N, in the shape of ``frequency_hz`` with outputs and inputs as the last axes.
+
+        Raises
+        ------
+        ArgumentError
+            As of :meth:`state_space`.
+        """
         return self.state_space(rpm, inputs=inputs, outputs=outputs).response(frequency_hz)
 
     def run_time_response(
@@ -152,13 +182,24 @@ class Matrices(Entry):
             As in :meth:`state_space`.
         forces_n, times_s
             As in :meth:`StateSpace.time_response`.
+
+        Returns
+        -------
+        ndarray
+            Deflections of the shape (times, outputs).
+
+        Raises
+        ------
+        ArgumentError
+            As of :meth:`state_space`, or the times are not even.
         """
         space = self.state_space(rpm, inputs=inputs, outputs=outputs, to_hz=to_hz)
         return space.time_response(forces_n, times_s)
 
     def _at_points(self, name: str, of: npt.ArrayLike) -> FloatArray:
-        pairs = numbers(name, of)
+        pairs = np.array(of, object)
         if pairs.size == 0 or pairs.size % 2 or (pairs.ndim != 1 and pairs.shape[-1] != 2):
             said = "points of the blade, each a radius in m and an angle in degrees"
-            raise refused(name, f"of shape {pairs.shape}", said, "write it like [(0.3, 90)]")
-        return self.at(*pairs.reshape(-1, 2).T)
+            raise refused(name, of, said, 'write it like [(0.3, 90)] or [("300 mm", "90 deg")]')
+        radii, angles = pairs.reshape(-1, 2).T.tolist()
+        return self.at(radii, angles)

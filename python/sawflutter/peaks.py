@@ -38,7 +38,7 @@ class Peaks(Entry):
 
     Attributes
     ----------
-    rpm : speed of each peak.
+    rpm : speed of each peak; the arrays have the shape (peaks).
     frequency_hz : frequency in space.
     amplitude : amplitude.
     order : multiple of the rotation speed at which the peak is; NaN at none.
@@ -123,10 +123,14 @@ class Peaks(Entry):
             raise ArgumentError(message, "within_hz", f"{limit:g}", "more", "raise within_hz")
         return found
 
-    def to_csv(self, path: str | os.PathLike[str], rows: Sequence[tuple[float, Sequence[float]]]) -> None:
+    def to_csv(
+        self, path: str | os.PathLike[str], rows: Sequence[tuple[float, Sequence[float]]] | None = None
+    ) -> None:
         """Writes ``rows``, the result of :meth:`rows` or several such lists in one, as a table for
-        ``sawflutter fit`` to a path, with blanks for NaN."""
-        Path(path).write_text(titled(rows), encoding="utf-8", newline="\n")
+        ``sawflutter fit`` to a path, with blanks for NaN; without them all peaks, as a table for
+        ``sawflutter margin``."""
+        text = listed([(self.name, self)]) if rows is None else titled(rows)
+        Path(path).write_text(text, encoding="utf-8", newline="\n")
 
     def to_dataframe(self) -> pd.DataFrame:
         """The peaks as a table; needs pandas."""
@@ -149,6 +153,16 @@ class Peaks(Entry):
         of_order = int((~np.isnan(self.order)).sum())
         counts = f"{len(self.rpm)} at {len(np.unique(self.spectrum))} speeds, {of_order} of them of an order"
         return f"<Peaks {self.name!r}: {counts}>"
+
+
+def listed(found: Iterable[tuple[str, Peaks]]) -> str:
+    """The table of peaks of files by their names, which ``sawflutter margin`` reads."""
+    lines = ["file,rpm,frequency_hz,amplitude,order"]
+    for name, of in found:
+        each = zip(of.rpm, of.frequency_hz, of.amplitude, of.order)
+        quoted = '"' + name.replace('"', '""') + '"'
+        lines += [f"{quoted},{n:.6g},{hz:.6f},{size:.6g},{'' if np.isnan(k) else f'{k:g}'}" for n, hz, size, k in each]
+    return "\n".join([*lines, ""])
 
 
 def _assigned(seen: FloatArray, computed: FloatArray, within_hz: float) -> list[float]:

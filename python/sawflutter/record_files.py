@@ -71,6 +71,9 @@ def read_record(
     >>> record.unit, record.rate_hz, record.rpm.tolist()
     ('mm', 2.0, [0.0, 10.0, 20.0])
     """
+    if not isinstance(path, (str, os.PathLike)):
+        remedy = 'make a record of numbers: sf.Record(table["probe"], rate_hz, rpm=table["rpm"])'
+        raise refused("path", type(path).__name__, "the path of a file", remedy)
     return read_signal(
         path, signal=signal, rpm=rpm, speed=speed, tacho=tacho, pulses_per_turn=pulses_per_turn,
         rate_hz=rate_hz, unit=unit, scale=scale,

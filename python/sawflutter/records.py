@@ -7,11 +7,13 @@ from dataclasses import dataclass
 import numpy as np
 import numpy.typing as npt
 
-from ._entry import Entry, FloatArray, array
+from ._drawn import Drawn
+from ._entry import Entry, FloatArray, IntArray, array
 from ._trend import is_steady, trend
 from ._values import Number, number, optional
 from .errors import ArgumentError, refused
 from .motions import RunUpResults
+from .plot.chart import Chart, Line, Panel, colours
 from .spectra import Spectrum, after_tap
 from .waterfalls import Waterfall, sliding_spectra
 
@@ -19,12 +21,14 @@ from .waterfalls import Waterfall, sliding_spectra
 _MOST_RPM = 1e6
 # Share of the largest speed by which the noise of a measured one may be below zero.
 _NOISE = 0.02
+# Parts of a record of which a figure shows the extremes.
+_PARTS = 2000
 
 
 @dataclass(frozen=True, eq=False, repr=False, init=False)
-class Record(Entry):
-    """Samples of a probe or a microphone. The parameters are attributes, too: ``rpm`` the rotation speed
-    at each sample. :func:`read_record` reads a record from a file.
+class Record(Drawn, Entry):
+    """Samples of a probe or a microphone. The parameters are attributes, too: ``samples`` of the shape
+    (samples), and ``rpm`` of the same shape, the rotation speed at each sample. :func:`read_record` reads a record from a file.
 
     Parameters
     ----------
@@ -79,6 +83,19 @@ class Record(Entry):
     def time_s(self) -> FloatArray:
         """Time of each sample from the begin of the record."""
         return array(np.arange(len(self.samples)) / self.rate_hz)
+
+    def chart(self) -> Chart:
+        """Samples and speed over time, to look at. Of a long record the lines have the smallest and the
+        largest sample of each of two thousand parts."""
+        places = _extremes(self.samples)
+        time_s = self.time_s[places]
+        unit = f" [{self.unit}]" if self.unit else ""
+        curves = ((f"signal{unit}", self.samples, "forward"), ("rotation speed [rpm]", self.rpm, "quiet"))
+        panels = tuple(
+            Panel("time [s]", name, [Line(time_s, of[places], colours()[colour])], x_range=(0.0, float(self.time_s[-1])))
+            for name, of, colour in curves
+        )
+        return Chart(self.name, f"{len(self.samples)} samples at {self.rate_hz:g} Hz", panels)
 
     def between(self, from_s: Number, to_s: Number) -> Record:
         """Part of the record from ``from_s`` to ``to_s``, such as its run-up, or the time after one of
@@ -153,6 +170,15 @@ class Record(Entry):
     def __repr__(self) -> str:
         speeds = f"{self.rpm.mean():.0f} rpm" if is_steady(self.rpm) else self._course()
         return f"<Record {self.name!r}: {self.time_s[-1]:.1f} s at {self.rate_hz:.0f} Hz, {speeds}>"
+
+
+def _extremes(samples: FloatArray) -> IntArray:
+    """Places of the smallest and the largest sample of each part of a record, or of all of a short one."""
+    if len(samples) <= 2 * _PARTS:
+        return np.arange(len(samples))
+    parts = np.array_split(np.arange(len(samples)), _PARTS)
+    found = [part[[samples[part].argmin(), samples[part].argmax()]] for part in parts]
+    return np.unique([0, *np.concatenate(found), len(samples) - 1])
 
 
 def _speeds(rpm: npt.ArrayLike, size: int, rate_hz: float) -> FloatArray:

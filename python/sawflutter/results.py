@@ -15,6 +15,7 @@ from ._extras import csv_frame, entries, extra
 from ._methods import know_bands
 from ._report_types import Branch, CampbellReport
 from ._result import Result
+from ._saving import Contents
 from .designs import TradeoffResults
 from .errors import InputError
 from .studies import StudyResults
@@ -41,21 +42,34 @@ class CampbellResults(Result, CampbellReport):
         """Modes followed over speed, by frequency at their lowest speed."""
         return self.campbell.branches
 
-    def _content(self, ending: str) -> str:
-        return _native.campbell_csv(self._text) if ending == ".csv" else super()._content(ending)
+    def _contents(self, name: str) -> Contents:
+        # The text of the library, because pandas would be needed for its copy.
+        table = {".csv": lambda: _native.campbell_csv(self._text).encode()}
+        return {**super()._contents(name), **table, ".pvd": lambda: self._grids()[1].encode()}
 
     def save(self, path: str | os.PathLike[str]) -> None:
         """Writes a file as :meth:`Result.save` does; one that ends in .pvd lists the grids for ParaView
-        that are written beside it, one for each phase of a period of every shape."""
-        place = Path(path)
-        if place.suffix.lower() != ".pvd":
-            return super().save(path)
+        that are written beside it, one for each phase of a period of every shape.
+
+        Raises
+        ------
+        ArgumentError
+            As in :meth:`Result.save`.
+        ValueError
+            The chart has no shapes for ParaView.
+        """
+        super().save(path)
+        if Path(path).suffix.lower() == ".pvd":
+            for name, text in self._grids()[0]:
+                Path(path).with_name(name).write_text(text, encoding="utf-8", newline="\n")
+
+    def _grids(self) -> tuple[list[tuple[str, str]], str]:
+        """Names and texts of the grids for ParaView, and their list."""
         files = _native.vtk_files(self._text)
         if not files:
             raise ValueError("the chart has no shapes; run_campbell(shapes=True) computes them")
-        for name, text in files:
-            file = place if name.endswith(".pvd") else place.with_name(name)
-            file.write_text(text, encoding="utf-8", newline="\n")
+        grids = [(name, text) for name, text in files if not name.endswith(".pvd")]
+        return grids, next(text for name, text in files if name.endswith(".pvd"))
 
     def to_xarray(self) -> xr.Dataset:
         """``frequency_hz``, ``body_frequency_hz``, ``growth_per_s`` and ``krein_sign`` as labelled
@@ -88,6 +102,15 @@ class CampbellResults(Result, CampbellReport):
             Rows of the table: branches at their speeds, with the columns of ``campbell.csv``;
             modes at rest; critical speeds; or bands of instability with their waves, the
             directions of these (``directions``) and their nodal diameters.
+
+        Returns
+        -------
+        pandas.DataFrame
+
+        Raises
+        ------
+        ValueError
+            There is no such table.
         """
         if of not in get_args(Table):
             raise ValueError(f"there is no table of {of!r}, but {', '.join(get_args(Table))}")
@@ -109,7 +132,19 @@ class CampbellResults(Result, CampbellReport):
 
 def load(path: str | os.PathLike[str]) -> Result | TradeoffResults:
     """Reads a report that the program or :meth:`Result.save` has written, of any kind; for a study
-    also the table of its saws in the same folder."""
+    also the table of its saws in the same folder.
+
+    Returns
+    -------
+    Result
+        Of the kind of the report, such as :class:`CampbellResults`; a tradeoff is a
+        :class:`TradeoffResults`.
+
+    Raises
+    ------
+    InputError
+        The file is no report that this version reads.
+    """
     text = Path(path).read_text(encoding="utf-8")
     try:
         data = json.loads(text)

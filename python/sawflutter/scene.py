@@ -6,7 +6,7 @@ import json
 import math
 import os
 import tempfile
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from concurrent.futures import Executor
 from html import escape
 from pathlib import Path
@@ -34,6 +34,7 @@ from .motions import CutResults, DeflectResults, GapResults, ResponseResults, Ru
 from .results import CampbellResults
 
 if TYPE_CHECKING:
+    import numpy.typing as npt
     from distributed import Client
     from matplotlib.animation import FuncAnimation
     from plotly.graph_objects import Figure
@@ -41,6 +42,7 @@ if TYPE_CHECKING:
 
     from ._values import Numbers
     from .maps import Along, MapResults
+    from .margins import MeasuredMargin
     from .plot.motion import Animation
 
 Bounds: TypeAlias = "tuple[Number, Number] | None"
@@ -103,6 +105,7 @@ class Scene(Drawn, Mapping[str, Value]):
                 "Scene.from_json a text"
             )
         self._setup(_native.scene(data))
+        self._warned()
 
     def _setup(self, text: str) -> None:
         object.__setattr__(self, "_text", text)
@@ -115,15 +118,42 @@ class Scene(Drawn, Mapping[str, Value]):
         scene._setup(text)
         return scene
 
+    def _warned(self, before: Scene | None = None) -> Self:
+        """Warns of implausible numbers, apart from those of the scene ``before`` a change."""
+        if unusual := _native.unusual_numbers(self._text):
+            known = [] if before is None else _native.unusual_numbers(before._text)
+            warned(text for text in unusual if text not in known)
+        return self
+
     @classmethod
     def from_json(cls, text: str) -> Self:
-        """Reads a scene from a JSON text."""
-        return cls._of(_native.scene(text))
+        """Reads a scene from a JSON text.
+
+        Raises
+        ------
+        SceneError
+            As of :class:`Scene`.
+        """
+        return cls._of(_native.scene(text))._warned()
 
     @classmethod
     def load(cls, path: str | os.PathLike[str]) -> Self:
-        """Reads a scene file at a path."""
-        return cls._of(_native.read_scene(path))
+        """Reads a scene file at a path.
+
+        Returns
+        -------
+        Scene
+
+        Raises
+        ------
+        SceneError
+            The file is no scene; the error names the key, or all keys that are missing.
+        OSError
+            The file cannot be read.
+        """
+        if isinstance(path, Mapping):
+            raise TypeError("Scene.load reads a file at a path; a dict is made a scene by Scene(data)")
+        return cls._of(_native.read_scene(path))._warned()
 
     @classmethod
     def paper(cls) -> Self:
@@ -168,6 +198,16 @@ class Scene(Drawn, Mapping[str, Value]):
         """The cut: wood and cutting forces."""
         return self._data.get("cut")
 
+    @property
+    def operating_rpm(self) -> float | None:
+        """The operating speed."""
+        return self._data.get("operating_rpm")
+
+    @property
+    def accuracy(self) -> Accuracy | None:
+        """The accuracy by its name, draft, design or reference; None if the scene has none."""
+        return self._data.get("accuracy")
+
     @overload
     def __getitem__(self, path: NumberPath) -> float: ...
     @overload
@@ -194,8 +234,20 @@ class Scene(Drawn, Mapping[str, Value]):
         changes : dict
             New values by path, such as ``"guides[0].radius_m"``. None removes a key. A missing
             block, such as ``damping`` in ``"damping.air_n_s_per_m3"``, is created.
+
+        Returns
+        -------
+        Scene
+            Of implausible numbers that this one has not, a :class:`ModelWarning` warns at once.
+
+        Raises
+        ------
+        PathError
+            The scene cannot have such a path.
+        SceneError
+            A value is out of range, or keys of a block are missing.
         """
-        return self._of(_native.replace(self._text, changes))
+        return self._of(_native.replace(self._text, changes))._warned(self)
 
     def with_accuracy(self, accuracy: Accuracy | None = None, tolerance: Number | None = None) -> Self:
         """Returns the scene with another ``accuracy`` by name, or with a ``tolerance``: the relative
@@ -259,7 +311,18 @@ class Scene(Drawn, Mapping[str, Value]):
             Speed of the cut under whose forces the saw is charted, as ``cut.chart_rpm`` of the scene.
         progress : bool or callable, optional
             True shows a bar. A callable is called with the finished and the total number of items
-            in each phase of the computation.
+            in each phase of the computation, and the name of the phase.
+
+        Returns
+        -------
+        CampbellResults
+
+        Raises
+        ------
+        InputError
+            An argument is refused.
+        AnalysisError
+            The saw cannot be analysed, or that would take more than five minutes.
         """
         scene = self
         if speed_range is not None:
@@ -288,6 +351,15 @@ class Scene(Drawn, Mapping[str, Value]):
             larger one where the accuracy needs it. Its basis is kept between calls. By default the
             saw has a basis of its own.
 
+        Returns
+        -------
+        Speeds
+
+        Raises
+        ------
+        AnalysisError
+            The saw cannot be analysed.
+
         Examples
         --------
         >>> import sawflutter as sf
@@ -299,8 +371,7 @@ class Scene(Drawn, Mapping[str, Value]):
         1530.0
         1580.0
         """
-        nominal = None if beside is None else _scene("beside", beside)._text
-        text, to_rpm = _native.speeds(self._text, nominal)
+        text, to_rpm = _native.speeds(self._text, _beside(beside))
         warned(_native.unusual_numbers(self._text))
         found = json.loads(text)
         critical = [rpm for rpm in found["critical_rpm"] if rpm <= to_rpm]
@@ -309,16 +380,16 @@ class Scene(Drawn, Mapping[str, Value]):
     @overload
     def modes(
         self, rpm: Numbers, *, to_hz: Number | None = None, n_modes: SupportsIndex | None = None,
-        progress: Progress = None,
+        beside: Scene | None = None, progress: Progress = None,
     ) -> Modes[tuple[Mode, ...]]: ...  # fmt: skip
     @overload
     def modes(
         self, rpm: Number, *, to_hz: Number | None = None, n_modes: SupportsIndex | None = None,
-        progress: Progress = None,
+        beside: Scene | None = None, progress: Progress = None,
     ) -> Modes[Mode]: ...  # fmt: skip
     def modes(
         self, rpm: Any, *, to_hz: Number | None = None, n_modes: SupportsIndex | None = None,
-        progress: Progress = None,
+        beside: Scene | None = None, progress: Progress = None,
     ) -> Modes[Any]:  # fmt: skip
         """Modes at a speed within the sweep, or at several from one basis, ascending by frequency,
         with their shapes.
@@ -331,9 +402,24 @@ class Scene(Drawn, Mapping[str, Value]):
             Largest frequency; by default ``complete_to_hz`` of the result, up to which no mode is
             missing.
         n_modes : int, optional
-            Largest number of modes at a speed.
+            Largest number of modes at a speed, at least 1. If fewer modes are complete a
+            :class:`ModelWarning` says so.
+        beside : Scene, optional
+            A similar saw whose basis is kept between calls, as in :meth:`speeds`.
         progress
             As in :meth:`run_campbell`.
+
+        Returns
+        -------
+        Modes
+            Of the shape (modes), or (speeds, modes) for several speeds.
+
+        Raises
+        ------
+        ArgumentError
+            A speed is not within the sweep, or a frequency above ``complete_to_hz``.
+        AnalysisError
+            The saw cannot be analysed.
 
         Examples
         --------
@@ -344,15 +430,17 @@ class Scene(Drawn, Mapping[str, Value]):
         >>> saw.modes([0, 500, 1000], n_modes=3).frequency_hz[:, 0].round(1).tolist()
         [7.7, 5.2, 2.6]
         """
-        speeds = np.asarray(number("rpm", rpm) if np.ndim(cast(Any, rpm)) == 0 else numbers("rpm", rpm))
-        options = {
-            "at_rpm": speeds.ravel().tolist(),
-            "to_hz": to_hz,
-            "n_modes": None if n_modes is None else whole("n_modes", n_modes),
-        }
+        speeds = numbers("rpm", rpm)
+        most = None if n_modes is None else whole("n_modes", n_modes)
+        if most == 0:
+            raise refused("n_modes", most, "at least 1", "leave it out for all modes that are complete")
+        options = {"at_rpm": speeds.ravel().tolist(), "to_hz": to_hz, "n_modes": most, "beside": _beside(beside)}
         with reporting(progress, "speeds") as told:
             found = json.loads(_run("modes", self._text, options, told)[0])
-        warned(_native.unusual_numbers(self._text))
+        fewest = min(map(len, found["modes"]), default=0)
+        is_short = most is not None and to_hz is None and fewest < most
+        short = f"{fewest} of {most} modes are complete, up to {found['complete_to_hz']:.4g} Hz"
+        warned([*_native.unusual_numbers(self._text), *([short] if is_short else [])])
         return Modes._of(speeds, found)
 
     # Generated by tools/generate_types.py from the library's table of arguments and its schema; not to be edited.
@@ -420,6 +508,17 @@ class Scene(Drawn, Mapping[str, Value]):
         accuracy, tolerance
             As in :meth:`run_campbell`.
 
+        Returns
+        -------
+        CheckResults
+
+        Raises
+        ------
+        InputError
+            An argument or a number of the scene is refused.
+        AnalysisError
+            The saw cannot be analysed.
+
         Examples
         --------
         >>> import sawflutter as sf
@@ -461,6 +560,17 @@ class Scene(Drawn, Mapping[str, Value]):
             Let the blade stretch where it bends by more than a part of its thickness.
         accuracy, tolerance, progress
             As in :meth:`run_campbell`.
+
+        Returns
+        -------
+        CutResults
+
+        Raises
+        ------
+        InputError
+            An argument or a number of the scene is refused.
+        AnalysisError
+            The saw cannot be analysed.
         """
         return self._asked(CutResults, accuracy, tolerance, progress, rpm=np.atleast_1d(numbers("rpm",
             rpm)), power_w=power_w, depth_m=depth_m, stretching=stretching)
@@ -492,6 +602,17 @@ class Scene(Drawn, Mapping[str, Value]):
             Let the blade stretch where it bends by more than a part of its thickness.
         accuracy, tolerance, progress
             As in :meth:`run_campbell`.
+
+        Returns
+        -------
+        RunUpResults
+
+        Raises
+        ------
+        InputError
+            An argument or a number of the scene is refused.
+        AnalysisError
+            The saw cannot be analysed.
 
         Examples
         --------
@@ -525,6 +646,17 @@ class Scene(Drawn, Mapping[str, Value]):
             Angle of the side force, in place of that of the scene.
         accuracy, tolerance, progress
             As in :meth:`run_campbell`.
+
+        Returns
+        -------
+        DeflectResults
+
+        Raises
+        ------
+        InputError
+            An argument or a number of the scene is refused.
+        AnalysisError
+            The saw cannot be analysed.
         """
         return self._asked(DeflectResults, accuracy, tolerance, progress, to_rpm=to_rpm, force_n=force_n,
             angle_deg=angle_deg)
@@ -550,6 +682,17 @@ class Scene(Drawn, Mapping[str, Value]):
             Date of the report, as it is to be written.
         accuracy, tolerance, progress
             As in :meth:`run_campbell`.
+
+        Returns
+        -------
+        DesignResults
+
+        Raises
+        ------
+        InputError
+            An argument or a number of the scene is refused.
+        AnalysisError
+            The saw cannot be analysed.
         """
         return self._asked(DesignResults, accuracy, tolerance, progress, customer=customer, date=date)
 
@@ -558,6 +701,8 @@ class Scene(Drawn, Mapping[str, Value]):
         *,
         rpm: Number | None = None,
         to_hz: Number | None = None,
+        force_n: Number | None = None,
+        angle_deg: Number | None = None,
         accuracy: Accuracy | None = None,
         tolerance: Number | None = None,
         progress: Progress = None,
@@ -573,10 +718,26 @@ class Scene(Drawn, Mapping[str, Value]):
             the operating speed.
         to_hz : float, optional
             Largest frequency of that; by default that up to which the diagram is complete.
+        force_n : float, optional
+            Constant side force, in place of side_force.force_n of the scene; 1 N in a scene without one.
+        angle_deg : float, optional
+            Angle of the side force, in place of that of the scene.
         accuracy, tolerance, progress
             As in :meth:`run_campbell`.
+
+        Returns
+        -------
+        ResponseResults
+
+        Raises
+        ------
+        InputError
+            An argument or a number of the scene is refused.
+        AnalysisError
+            The saw cannot be analysed.
         """
-        return self._asked(ResponseResults, accuracy, tolerance, progress, rpm=rpm, to_hz=to_hz)
+        return self._asked(ResponseResults, accuracy, tolerance, progress, rpm=rpm, to_hz=to_hz,
+            force_n=force_n, angle_deg=angle_deg)
 
     def run_gap(
         self,
@@ -618,6 +779,17 @@ class Scene(Drawn, Mapping[str, Value]):
             the pads is computed, and the deflection of the blade that it heats.
         accuracy, tolerance, progress
             As in :meth:`run_campbell`.
+
+        Returns
+        -------
+        GapResults
+
+        Raises
+        ------
+        InputError
+            An argument or a number of the scene is refused.
+        AnalysisError
+            The saw cannot be analysed.
         """
         return self._asked(GapResults, accuracy, tolerance, progress, gap_m=gap_m, rpm=rpm,
             max_deviation_m=max_deviation_m, force_n=force_n, oscillating_force_n=oscillating_force_n,
@@ -654,6 +826,17 @@ class Scene(Drawn, Mapping[str, Value]):
             Depth of cut.
         accuracy, tolerance, progress
             As in :meth:`run_campbell`.
+
+        Returns
+        -------
+        WashboardResults
+
+        Raises
+        ------
+        InputError
+            An argument or a number of the scene is refused.
+        AnalysisError
+            The saw cannot be analysed.
         """
         return self._asked(WashboardResults, accuracy, tolerance, progress, rpm=rpm,
             stiffness_n_per_m=stiffness_n_per_m, overlap=overlap, power_w=power_w, depth_m=depth_m)
@@ -691,6 +874,17 @@ class Scene(Drawn, Mapping[str, Value]):
             Starting points: the numbers of the scene, and others between the bounds.
         accuracy, tolerance, progress
             As in :meth:`run_campbell`.
+
+        Returns
+        -------
+        FitResults
+
+        Raises
+        ------
+        InputError
+            An argument or a number of the scene is refused.
+        AnalysisError
+            The saw cannot be analysed.
 
         Examples
         --------
@@ -760,6 +954,17 @@ class Scene(Drawn, Mapping[str, Value]):
         accuracy, tolerance, progress
             As in :meth:`run_campbell`.
 
+        Returns
+        -------
+        PlaceResults
+
+        Raises
+        ------
+        InputError
+            An argument or a number of the scene is refused.
+        AnalysisError
+            The saw cannot be analysed.
+
         Examples
         --------
         >>> import sawflutter as sf
@@ -826,6 +1031,17 @@ class Scene(Drawn, Mapping[str, Value]):
         accuracy, tolerance, progress
             As in :meth:`run_campbell`.
 
+        Returns
+        -------
+        SizeResults
+
+        Raises
+        ------
+        InputError
+            An argument or a number of the scene is refused.
+        AnalysisError
+            The saw cannot be analysed.
+
         Examples
         --------
         >>> import sawflutter as sf
@@ -877,6 +1093,16 @@ class Scene(Drawn, Mapping[str, Value]):
             As in :meth:`sawflutter.Study.run`.
         accuracy, tolerance, progress
             As in :meth:`run_campbell`.
+
+        Returns
+        -------
+        MapResults
+            With a saw for each point; those that cannot be analysed say why.
+
+        Raises
+        ------
+        InputError
+            An axis or another argument is refused.
         """
         from .maps import MapResults, axis
         from .study import Study
@@ -900,9 +1126,80 @@ class Scene(Drawn, Mapping[str, Value]):
         warned(result._warnings())
         return result
 
+    def measured_margin(
+        self,
+        rpm: npt.ArrayLike,
+        peak_hz: npt.ArrayLike,
+        free: Mapping[str, tuple[Number, Number]],
+        *,
+        orders: Sequence[Number] = (1, 2),
+        margin: Number = 0.85,
+        steps: SupportsIndex = 200,
+        seed: SupportsIndex = 0,
+        accuracy: Accuracy | None = None,
+        tolerance: Number | None = None,
+        progress: Progress = None,
+    ) -> MeasuredMargin:
+        """How fast the saw may turn if its frequencies were measured over the speed, without knowing of which
+        modes they are; needs emcee and SciPy. If this takes more than about ten seconds, the logger
+        ``sawflutter`` warns first with a rough estimate of the time.
+
+        Each peak is of one of the lowest frequencies, with normal errors of a common unknown deviation, at
+        a multiple of the speed, or of nothing. The free numbers are equally probable between their bounds,
+        on a logarithmic scale if these are a decade apart. An ensemble sampler, emcee, draws saws from what
+        follows for them; 100 of them are analysed fully. The saw idles: its cut is left out.
+
+        Parameters
+        ----------
+        rpm, peak_hz : array_like
+            Speed and frequency of each peak, such as those of :class:`Peaks`, of which up to 12 speeds are used.
+        free : mapping
+            Path of each number that is not known, with its bounds.
+        orders : sequence of float
+            Multiples of the speed at which peaks may be.
+        margin : float
+            Share of the deciding speed at which the saw may run.
+        steps : int
+            Steps of the ensemble, each with 48 saws.
+        seed : int
+            Seed of the sampler.
+        accuracy, tolerance, progress
+            As in :meth:`run_campbell`.
+
+        Returns
+        -------
+        MeasuredMargin
+
+        Raises
+        ------
+        ArgumentError
+            An argument is refused, such as bounds that are too wide together.
+        AnalysisError
+            A saw between the bounds cannot be analysed.
+        """
+        from .margins import measured_margin
+
+        # Peaks over the speed are those of the idle saw.
+        saw = self.with_accuracy(accuracy, tolerance).replace({"cut": None})
+        with reporting(progress, "saws") as told:
+            return measured_margin(
+                saw, rpm, peak_hz, free, orders, margin, whole("steps", steps), whole("seed", seed),
+                told or (lambda *_: None),
+            )  # fmt: skip
+
     def tradeoff(self, *, progress: Progress = None) -> TradeoffResults:
-        """Measures computing time against true error, for bases of several sizes. ``progress`` is
-        as in :meth:`run_campbell`.
+        """Measures computing time against true error, for bases of several sizes, up to one of some thousand
+        functions: of the built-in saw it takes half a minute of processor time and 1 GB of memory.
+        ``progress`` is as in :meth:`run_campbell`.
+
+        Returns
+        -------
+        TradeoffResults
+
+        Raises
+        ------
+        AnalysisError
+            The saw cannot be analysed.
         """
         with reporting(progress, "settings") as told:
             text, _ = _run("tradeoff", self._text, {}, told)
@@ -913,6 +1210,7 @@ class Scene(Drawn, Mapping[str, Value]):
         self,
         basis: tuple[SupportsIndex, SupportsIndex] | None = None,
         *,
+        beside: Scene | None = None,
         accuracy: Accuracy | None = None,
         tolerance: Number | None = None,
     ) -> Matrices:
@@ -923,9 +1221,25 @@ class Scene(Drawn, Mapping[str, Value]):
         basis : (int, int), optional
             Largest number of nodal diameters, and number of radial functions for each; by default
             as the accuracy requires.
+        beside : Scene, optional
+            A similar saw whose basis is kept between calls, as in :meth:`speeds`; without ``basis``.
         accuracy, tolerance
             As in :meth:`run_campbell`.
+
+        Returns
+        -------
+        Matrices
+            Each matrix has the shape (functions, functions).
+
+        Raises
+        ------
+        ArgumentError
+            The basis is refused.
+        AnalysisError
+            No basis has the accuracy.
         """
+        if basis is not None and beside is not None:
+            raise TypeError("give basis or beside, not both")
         if basis is not None:
             if not isinstance(basis, tuple) or len(basis) != 2:
                 said = "two whole numbers, of nodal diameters and of radial functions for each"
@@ -933,7 +1247,7 @@ class Scene(Drawn, Mapping[str, Value]):
             basis = (whole("basis", basis[0]), whole("basis", basis[1]))
         warned(_native.unusual_numbers(self._text))
         scene = self.with_accuracy(accuracy, tolerance)._text
-        found, diameters, functions = _native.matrices(scene, basis=basis)
+        found, diameters, functions = _native.matrices(scene, basis=basis, beside=_beside(beside))
         arrays: dict[str, Any] = {"damping": None, "circulatory": None}
         for name, values in found.items():
             flat = np.frombuffer(values, "<f8")
@@ -959,6 +1273,17 @@ class Scene(Drawn, Mapping[str, Value]):
             Index of the guide, counted from 0; by default all guides.
         accuracy, tolerance, progress
             As in :meth:`run_campbell`.
+
+        Returns
+        -------
+        StiffnessMap
+
+        Raises
+        ------
+        ArgumentError
+            The scene has no guide.
+        AnalysisError
+            One of the saws cannot be analysed.
         """
         chosen = range(len(self.guides)) if guide is None else [whole("guide", guide)]
         if not chosen:
@@ -1046,6 +1371,11 @@ def _run(command: str, scene: str, options: dict[str, Any], told: Any) -> tuple[
     except Exception:
         warned(_native.unusual_numbers(scene))
         raise
+
+
+def _beside(nominal: Scene | None) -> str | None:
+    """The text of a saw beside which another one is analysed."""
+    return None if nominal is None else _scene("beside", nominal)._text
 
 
 def _scene(name: str, value: object) -> Scene:

@@ -39,8 +39,8 @@ class Spectrum(Drawn, Entry):
 
     Attributes
     ----------
-    frequency_hz : frequencies in space, ascending.
-    response : complex amplitudes.
+    frequency_hz : frequencies in space, ascending, of the shape (frequencies).
+    response : complex amplitudes, of the same shape.
     rpm : rotation speed.
     resolution_hz : distance below which two peaks are one.
     unit : unit of the response.

@@ -4,20 +4,18 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass
-from typing import Any
 
 import numpy as np
 import numpy.typing as npt
 
 from ._entry import ComplexArray, Entry, FloatArray
 from ._extras import extra
+from ._receptance import receptance
 from ._values import Number, number, numbers
 from .errors import refused
 
 # Modes whose eigenvectors agree to half the digits are about to coalesce.
 _LARGEST_CONDITION = 1e8
-# Largest size in bytes of the matrices that are solved at once.
-_BLOCK_BYTES = 2**25
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -31,10 +29,10 @@ class StateSpace(Entry):
     Attributes
     ----------
     rpm : rotation speed.
-    A : states by states, in 1/s.
-    B : states by inputs.
-    C : outputs by states.
-    D : outputs by inputs, in m/N: the deflection at rest of modes that are left out; zero for a
+    A : of the shape (states, states), in 1/s.
+    B : (states, inputs).
+    C : (outputs, states).
+    D : (outputs, inputs), in m/N: the deflection at rest of modes that are left out; zero for a
         full model.
     """
 
@@ -76,34 +74,22 @@ class StateSpace(Entry):
         return StateSpace(self.rpm, matrix, inverse @ self.B, self.C @ basis, self.D + yielding.real)
 
     def response(self, frequency_hz: npt.ArrayLike) -> ComplexArray:
-        """Deflections for forces of one newton at frequencies in space, in m/N: their size and phase,
-        in the shape of ``frequency_hz`` with outputs and inputs as the last axes. Memory is bounded,
-        for any number of frequencies."""
-        hz = numbers("frequency_hz", frequency_hz)
-        found = np.empty((hz.size, len(self.C), self.B.shape[1]), complex)
-        solve, size = self._solver()
-        step = max(1, _BLOCK_BYTES // (16 * size**2))
-        for begin in range(0, hz.size, step):
-            block = slice(begin, begin + step)
-            found[block] = solve(2j * np.pi * hz.ravel()[block, None, None]) + self.D
-        return found.reshape(*hz.shape, *self.D.shape)
+        """Deflections for forces of one newton at frequencies in space: their size and phase. Memory is
+        bounded, for any number of frequencies; many of them take one eigenproblem of A.
 
-    def _solver(self) -> tuple[Any, int]:
-        """A function that gives C (s − A)⁻¹ B at several s, and the order of its equations: half of the
-        states where they are deflections and velocities, q'' + V q' + P q = f."""
-        size = len(self.A) // 2
-        whole, half = np.eye(len(self.A)), np.eye(size)
-        is_second_order = (
-            len(self.A) == 2 * size
-            and np.array_equal(self.A[:size], np.hstack([0.0 * half, half]))
-            and not self.B[:size].any()
-            and not self.C[:, size:].any()
-        )
-        if not is_second_order:
-            return lambda s: self.C @ np.linalg.solve(s * whole - self.A, self.B), len(self.A)
-        position, velocity = -self.A[size:, :size], -self.A[size:, size:]
-        force, probe = self.B[size:], self.C[:, :size]
-        return lambda s: probe @ np.linalg.solve(s**2 * half + s * velocity + position, force), size
+        Parameters
+        ----------
+        frequency_hz : array_like
+            Frequencies, of any shape.
+
+        Returns
+        -------
+        ndarray of complex
+            Deflections in m/N, in the shape of ``frequency_hz`` with outputs and inputs as the last axes.
+        """
+        hz = numbers("frequency_hz", frequency_hz)
+        found = receptance(self, np.asarray(2j * np.pi * hz.ravel(), np.complex128))
+        return found.reshape(*hz.shape, *self.D.shape)
 
     def time_response(self, forces_n: npt.ArrayLike, times_s: npt.ArrayLike) -> FloatArray:
         """Deflections over time from rest in m, of the shape (times, outputs), under ``forces_n`` of

@@ -12,6 +12,7 @@ from . import _native
 from ._extras import csv_frame, extra
 from ._report_types import StudyReport
 from ._result import Result
+from ._saving import Contents
 from .plot.chart import Chart
 from .plot.described import read
 
@@ -28,19 +29,32 @@ class StudyResults(Result, StudyReport):
     _table: Path | str | None = None
 
     def save(self, path: str | os.PathLike[str]) -> None:
+        """Writes a file as :meth:`Result.save` does, and beside .json the table of its saws as .csv.
+
+        Raises
+        ------
+        ArgumentError
+            As in :meth:`Result.save`.
+        """
         super().save(path)
         table, beside = self._csv(), Path(path).with_suffix(".csv")
-        if table is not None and self._table != beside.absolute():
+        if Path(path).suffix.lower() == ".json" and table is not None and self._table != beside.absolute():
             beside.write_bytes(table.encode())
+
+    def _contents(self, name: str) -> Contents:
+        return {**super()._contents(name), ".csv": lambda: self._known_csv().encode()}
 
     def to_dataframe(self) -> pd.DataFrame:
         """One row for each saw, from the table beside the report; needs pandas."""
+        return csv_frame(self._known_csv())
+
+    def _known_csv(self) -> str:
         table = self._csv()
         if table is None:
             raise FileNotFoundError(
                 "the table of the saws is study.csv beside the report: load it there"
             )
-        return csv_frame(table)
+        return table
 
     def _csv(self) -> str | None:
         if isinstance(self._table, Path):

@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 import os
 import sys
+import tempfile
 from collections.abc import Iterable, Mapping
 from concurrent.futures import Executor
 from pathlib import Path
@@ -39,13 +40,12 @@ class Study:
 
     Examples
     --------
-    >>> import tempfile
     >>> import sawflutter as sf
     >>> free = sf.Scene.paper().replace({"accuracy": "draft", "guides": []})
     >>> even = {"kind": "tolerance", "plus_minus": 5e-5}
     >>> study = sf.Study(free, {"name": "Thickness", "saws": 8, "parameters": [
     ...     {"path": "blade.thickness_m", "distribution": even}]})
-    >>> result = study.run(tempfile.mkdtemp())
+    >>> result = study.run()
     >>> result.all.saws
     8
     """
@@ -78,7 +78,7 @@ class Study:
 
     def run(
         self,
-        folder: str | os.PathLike[str],
+        folder: str | os.PathLike[str] | None = None,
         *,
         executor: Executor | Client | None = None,
         progress: Progress = None,
@@ -87,9 +87,9 @@ class Study:
 
         Parameters
         ----------
-        folder : path
+        folder : path, optional
             Folder for the log of finished saws and for the results, the files of the program. A
-            stopped run continues when started again.
+            stopped run continues when started again. By default nothing is kept on the disk.
         executor : concurrent.futures.Executor or dask.distributed.Client, optional
             Executor for the saws; by default all cores of this machine. A task is a range of saws
             that takes about half a minute; only this process writes the log. With a client of
@@ -98,12 +98,26 @@ class Study:
         progress : bool or callable, optional
             As of :meth:`Scene.run_campbell`. With a client of Dask the address of its dashboard is
             printed, too.
+
+        Returns
+        -------
+        StudyResults
+
+        Raises
+        ------
+        StudyError
+            The folder belongs to another study.
+        AnalysisError
+            The executor has stopped, or the saw of the scene itself cannot be analysed.
         """
-        place = Path(folder)
-        self._compute(place, executor, progress)
-        self._sum_up(place)
-        result = load(place / "study.json")
-        assert isinstance(result, StudyResults)
+        with tempfile.TemporaryDirectory() as temporary:
+            place = Path(temporary if folder is None else folder)
+            self._compute(place, executor, progress)
+            self._sum_up(place)
+            result = load(place / "study.json")
+            assert isinstance(result, StudyResults)
+            if folder is None:
+                result = StudyResults._with_table(result.to_json(), result._csv())
         warned([*_native.unusual_numbers(self.scene.to_json()), *result._warnings()])
         return result
 

@@ -43,8 +43,8 @@ class Waterfall(Drawn, Entry):
 
     Attributes
     ----------
-    rpm : speed of each spectrum, ascending.
-    frequency_hz : frequencies in space, as the probe sees them.
+    rpm : speed of each spectrum, ascending, of the shape (speeds).
+    frequency_hz : frequencies in space, as the probe sees them, of the shape (frequencies).
     amplitude : amplitudes, of the shape (speeds, frequencies). A steady sine has its own
         amplitude.
     resolution_hz : width of the peak of a steady sine at half its amplitude.

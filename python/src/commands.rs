@@ -12,10 +12,11 @@ use sawflutter::analyses::door::{Argument, ArgumentKind, CommandError, Step};
 use sawflutter::analyses::tradeoff::tradeoff;
 use sawflutter::model::scene::{RefusedValue, Scene};
 use sawflutter::modes::{SpectralModel, Strategy};
-use sawflutter::stability::{Analysis, AnalysisOptions, ChosenBasis, ExpectedWork};
+use sawflutter::stability::{Analysis, AnalysisOptions, ExpectedWork};
 use serde::Serialize;
 
 use crate::arguments::{self, Options};
+use crate::beside::chosen_basis;
 use crate::failure::Failure;
 use crate::watch::{Meter, compute};
 
@@ -157,8 +158,9 @@ fn modes(options: &Options<'_>) -> PyResult<Work> {
     let at_rpm: Vec<f64> = options.get("at_rpm")?;
     let to_hz: Option<f64> = options.number("to_hz")?;
     let n_modes: Option<usize> = options.get("n_modes")?;
+    let beside: Option<String> = options.get("beside")?;
     Ok(Box::new(move |scene, meter| {
-        let chosen = ChosenBasis::new(scene, scene.tolerance())?;
+        let chosen = chosen_basis(scene, beside.as_deref())?;
         let range = chosen.range_rad_per_s;
         let speeds = at_rpm
             .iter()

@@ -2,6 +2,7 @@
 //! bytes of doubles. The package around it makes the Python objects.
 
 mod arguments;
+mod beside;
 mod charts;
 mod commands;
 mod failure;

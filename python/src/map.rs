@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use pyo3::prelude::*;
 use sawflutter::analyses::map::{self, Options, Range};
-use sawflutter::analyses::study::Rows;
+use sawflutter::analyses::study::{Rows, StudyError};
 
 use crate::arguments;
 use crate::commands::json;
@@ -41,7 +41,13 @@ impl Map {
             to_rpm,
         };
         // Without an end of the sweep, the saw of the scene itself is analysed for one.
-        let map = compute(py, None, move |_| Ok(map::Map::new(scene, &options)?))?;
+        let map = compute(py, None, move |_| {
+            map::Map::new(scene, &options).map_err(|error| match error {
+                // The error of the scene names the path, by which Python names an axis, too.
+                StudyError::Scene { source, .. } => source.into(),
+                other => other.into(),
+            })
+        })?;
         Ok(Map(map))
     }
 

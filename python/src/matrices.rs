@@ -6,9 +6,9 @@ use pyo3::types::{PyBytes, PyDict};
 use sawflutter::model::plate::{Plate, Resolution};
 use sawflutter::model::scene::Scene;
 use sawflutter::model::system::GyroscopicSystem;
-use sawflutter::stability::ChosenBasis;
 
 use crate::arguments;
+use crate::beside::chosen_basis;
 use crate::failure::Failure;
 use crate::watch::compute;
 
@@ -16,11 +16,12 @@ use crate::watch::compute;
 /// NumPy reads them without a copy; rust-numpy would switch on features of dependencies, for which the whole library
 /// would have to be built a second time.
 #[pyfunction]
-#[pyo3(signature = (scene, *, basis=None))]
+#[pyo3(signature = (scene, *, basis=None, beside=None))]
 pub fn matrices<'py>(
     py: Python<'py>,
     scene: &str,
     basis: Option<(usize, usize)>,
+    beside: Option<String>,
 ) -> PyResult<(Bound<'py, PyDict>, usize, usize)> {
     let scene = arguments::scene(scene)?;
     let basis = basis
@@ -29,7 +30,7 @@ pub fn matrices<'py>(
     let (named, diameters, functions) = compute(py, None, move |_| {
         let plate = match basis {
             Some(resolution) => Plate::new(&scene, resolution),
-            None => ChosenBasis::new(&scene, scene.tolerance())?.saw.plate,
+            None => chosen_basis(&scene, beside.as_deref())?.saw.plate,
         };
         let system = GyroscopicSystem::of_plate(&plate);
         let mut named = vec![

@@ -178,7 +178,8 @@ fn missing(place: &Value, reached: &str, path: &str) -> Failure {
 
 fn counted(list: &Value, at: &str) -> String {
     let count = list.as_array().map_or(0, Vec::len);
-    format!("{at} has {count} entries, counted from 0")
+    let plural = if count == 1 { "entry" } else { "entries" };
+    format!("{at} has {count} {plural}, counted from 0")
 }
 
 fn refused_path(message: String, path: &str, allowed: String, remedy: &str) -> Failure {

@@ -15,6 +15,7 @@ use sawflutter::analyses::study::{
 use sawflutter::model::scene::rpm;
 
 use crate::arguments;
+use crate::beside::study_of;
 use crate::commands::json;
 use crate::failure::Failure;
 use crate::watch::{compute, lock};
@@ -185,37 +186,27 @@ impl Study {
     }
 }
 
-/// The last saw beside which others were analysed, with its basis.
-static BESIDE: Mutex<Option<(String, Arc<study::Study>)>> = Mutex::new(None);
-
 /// Critical speeds, flutter speed and bands of a scene, as JSON, and the last speed in rpm; if another scene is given, on a
 /// basis that is at least as large as that of the other one, and up to its last speed.
 #[pyfunction]
-pub fn speeds(py: Python<'_>, scene: &str, beside: Option<&str>) -> PyResult<(String, f64)> {
+pub fn speeds(py: Python<'_>, scene: &str, beside: Option<String>) -> PyResult<(String, f64)> {
     let scene = arguments::scene(scene)?;
-    let Some(beside) = beside else {
-        return compute(py, None, move |_| {
-            let study = study::Study::of_one(scene)?;
-            let text = json(&study.own_speeds().map_err(CommandError::from)?)?;
-            Ok((text, rpm(study.to_rad_per_s())))
-        });
-    };
-    let known = lock(&BESIDE)
-        .as_ref()
-        .filter(|known| known.0 == beside)
-        .map(|known| known.1.clone());
-    let nominal = arguments::scene(beside)?;
-    let (study, text, to_rpm) = compute(py, None, move |_| {
-        let study = match known {
-            Some(study) => study,
-            None => Arc::new(study::Study::of_one(nominal)?),
+    compute(py, None, move |_| {
+        let (study, found) = match beside {
+            None => {
+                let study = Arc::new(study::Study::of_one(scene)?);
+                let found = study.own_speeds();
+                (study, found)
+            }
+            Some(text) => {
+                let study = study_of(&text)?;
+                let found = study.speeds(&scene);
+                (study, found)
+            }
         };
-        let text = json(&study.speeds(&scene).map_err(CommandError::from)?)?;
-        let to_rpm = rpm(study.to_rad_per_s());
-        Ok((study, text, to_rpm))
-    })?;
-    *lock(&BESIDE) = Some((beside.to_owned(), study));
-    Ok((text, to_rpm))
+        let text = json(&found.map_err(CommandError::from)?)?;
+        Ok((text, rpm(study.to_rad_per_s())))
+    })
 }
 
 /// The type of this machine's processor.

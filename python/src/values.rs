@@ -117,7 +117,16 @@ pub fn json(path: &str, value: &Bound<'_, PyAny>) -> PyResult<Value> {
     } else if value.hasattr("m_as")? {
         json(path, &magnitude(path, value)?)
     } else if value.hasattr("tolist")? {
-        json(path, &value.call_method0("tolist")?)
+        // NumPy and pandas give one number also as an array of one element.
+        let size: Option<usize> = value
+            .getattr("size")
+            .and_then(|size| Ok(size.extract()?))
+            .ok();
+        let is_number = size == Some(1) && Quantity::of(path).is_some();
+        json(
+            path,
+            &value.call_method0(if is_number { "item" } else { "tolist" })?,
+        )
     } else if value.hasattr("__float__")? {
         finite(path, value.call_method0("__float__")?.extract()?)
     } else {

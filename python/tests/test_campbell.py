@@ -83,7 +83,9 @@ def test_a_mode_at_rest_of_the_free_blade_has_its_nodal_diameters() -> None:
     w = mode.shape(0.355, around)
     assert np.max(np.abs(w)) == pytest.approx(1.0, abs=1e-2)
     assert np.count_nonzero(np.diff(np.sign(w))) in (3, 4)
-    assert np.isnan(mode.shape(0.36, 0.0)) and np.isnan(mode.shape(0.09, 0.0))
+    for beside_m in (0.36, 0.09, 200):
+        with pytest.raises(sf.ArgumentError, match=r"radius_m must be from 0\.1 to 0\.355, the radii of the blade"):
+            mode.shape([0.2, beside_m], 0.0)
 
 
 def test_a_reflected_wave_turns_with_the_rotation_and_a_backward_one_against(
@@ -107,10 +109,28 @@ def test_a_reflected_wave_turns_with_the_rotation_and_a_backward_one_against(
 
 
 def test_a_speed_outside_the_sweep_is_refused(draft: sf.Scene) -> None:
-    for rpm in (-1.0, 3001.0, float("nan")):
-        with pytest.raises(sf.ArgumentError) as caught:
+    for rpm, said in ((-1.0, "3000"), (3001.0, "3000"), (float("nan"), "finite")):
+        with pytest.raises(sf.ArgumentError, match=said) as caught:
             draft.modes(rpm)
-        assert caught.value.key == "rpm" and "3000" in str(caught.value)
+        assert caught.value.key == "rpm"
+
+
+def test_a_number_of_modes_that_is_not_complete_is_warned_of(draft: sf.Scene) -> None:
+    with pytest.warns(sf.ModelWarning, match=r"12 of 500 modes are complete, up to 167\.4 Hz"):
+        assert len(draft.modes(0, n_modes=500)) == 12
+    with pytest.raises(sf.ArgumentError, match="n_modes must be at least 1"):
+        draft.modes(0, n_modes=0)
+
+
+def test_modes_and_matrices_have_the_basis_of_a_similar_saw(draft: sf.Scene) -> None:
+    fine, thin = draft.with_accuracy("design"), draft.replace({"blade.thickness_m": "2.6 mm"})
+    sizes = [len(of.stiffness) for of in (thin.matrices(), thin.matrices(beside=fine), fine.matrices())]
+    assert sizes[0] < sizes[1] and sizes[1] == sizes[2]
+    # A larger basis lowers frequencies at rest.
+    alone, beside = thin.modes(0)[0], thin.modes(0, beside=fine)[0]
+    assert beside.frequency_hz < alone.frequency_hz < beside.frequency_hz * 1.001
+    with pytest.raises(TypeError, match="not both"):
+        thin.matrices((8, 5), beside=fine)
 
 
 def test_every_key_of_the_report_is_an_attribute(report: sf.CampbellResults) -> None:

@@ -303,3 +303,8 @@ def test_whole_numbers_that_are_none_are_named(
     for other in (2.0, True, np.bool_(True), "2"):
         with pytest.raises(TypeError, match=f"{key} must be a whole number"):
             ask(draft, other)
+
+
+def test_a_response_takes_the_side_force(draft: sf.Scene) -> None:
+    found = draft.run_response(rpm=1200, to_hz=50, force_n="2 N", angle_deg=30)
+    assert found.constant_force_n == 2.0 and found.saw["side_force.angle_deg"] == 30.0

@@ -17,7 +17,7 @@ import sawflutter as sf
 @pytest.mark.parametrize(
     ("guess", "words"),
     [
-        (lambda saw: sf.compare(saw, {}), "saws\\[1\\] must be a Scene.*Scene.load"),  # type: ignore[arg-type]
+        (lambda saw: sf.compare(saw, {}), "saws\\[1\\] must be a Scene.*Scene.load"),  # type: ignore[call-overload]
         (lambda saw: sf.Study(saw.to_dict(), {}), "scene must be a Scene.*Scene.load"),
         (lambda saw: saw.run_map("blade.thickness_m"), "x must be a path.*write it like"),
         (lambda saw: saw.replace(None), "changes must be values by their paths, like"),
@@ -207,7 +207,7 @@ def test_what_is_shown_is_short(draft: sf.Scene, report: sf.CampbellResults) -> 
 
 def test_progress_never_runs_back(draft: sf.Scene) -> None:
     told: list[tuple[int, int]] = []
-    draft.run_campbell(progress=lambda done, of: told.append((done, of)))
+    draft.run_campbell(progress=lambda done, of, _: told.append((done, of)))
     for before, after in zip(told, told[1:]):
         assert after[0] >= before[0] or after[1] != before[1]
 

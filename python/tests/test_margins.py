@@ -3,9 +3,11 @@
 from __future__ import annotations
 
 import json
+import logging
 import re
 import subprocess
 import sys
+import time
 from pathlib import Path
 from typing import Any
 
@@ -47,11 +49,50 @@ def peaks(saw: sf.Scene) -> tuple[Array, Array, Array]:
 
 
 @pytest.fixture(scope="module")
-def found(saw: sf.Scene, peaks: tuple[Array, Array, Array]) -> sf.MeasuredMargin:
+def computed(
+    saw: sf.Scene, peaks: tuple[Array, Array, Array]
+) -> tuple[sf.MeasuredMargin, set[str], list[logging.LogRecord]]:
+    """The margin, the phases of its progress, and its announcements."""
+    phases, said = set[str](), list[logging.LogRecord]()
+
+    def tell(done: int, of: int, phase: str) -> None:
+        assert 0 < done <= of
+        phases.add(phase)
+
+    class Handler(logging.Handler):
+        def emit(self, record: logging.LogRecord) -> None:
+            said.append(record)
+
+    handler = Handler()
+    logging.getLogger("sawflutter").addHandler(handler)
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr(margins, "_FIRST", 256)
         patch.setattr(margins, "_ANALYSED", 40)
-        return sf.measured_margin(saw, peaks[0], peaks[1], FREE, steps=60)
+        patch.setattr(margins, "_LONG_S", 0.1)
+        begin = time.perf_counter()
+        result = saw.measured_margin(peaks[0], peaks[1], FREE, steps=60, accuracy="draft", progress=tell)
+        said.append(logging.makeLogRecord({"args": (time.perf_counter() - begin,)}))
+    logging.getLogger("sawflutter").removeHandler(handler)
+    return result, phases, said
+
+
+@pytest.fixture(scope="module")
+def found(
+    computed: tuple[sf.MeasuredMargin, set[str], list[logging.LogRecord]]
+) -> sf.MeasuredMargin:
+    return computed[0]
+
+
+def test_its_time_is_estimated_and_its_phases_are_named(
+    computed: tuple[sf.MeasuredMargin, set[str], list[logging.LogRecord]]
+) -> None:
+    _, phases, (said, taken) = computed
+    assert phases == {"saws between the bounds", "steps", "analyses"}
+    assert "a rough estimate" in said.getMessage()
+    assert isinstance(said.args, tuple) and isinstance(taken.args, tuple)
+    assert isinstance(said.args[0], float) and isinstance(taken.args[0], float)
+    # Other work on the machine changes both.
+    assert 0.2 < said.args[0] / taken.args[0] < 5.0
 
 
 def test_the_intervals_contain_the_true_saw(saw: sf.Scene, found: sf.MeasuredMargin) -> None:
@@ -90,7 +131,7 @@ def test_the_figure_shows_the_peaks_by_kind(found: sf.MeasuredMargin) -> None:
 
 def test_small_matrices_have_the_frequencies_of_the_full_ones(saw: sf.Scene) -> None:
     bounds = [(path, low, high) for path, (low, high) in FREE.items()]
-    reduced = Reduced(saw, bounds, 1200.0, lambda done, of: None)
+    reduced = Reduced(saw, bounds, 1200.0, lambda seconds: None, lambda *_: None)
     numbers = np.array(list(TRUTH.values()))
     rpm = np.array([0.0, 600.0, 1200.0])
     small = reduced.frequencies_hz(numbers[None], rpm)[0, :, :5]
@@ -126,13 +167,13 @@ def test_the_next_measurement_is_of_what_decides() -> None:
 def test_bad_arguments_are_refused(saw: sf.Scene, arguments: dict[str, Any], said: str) -> None:
     given: dict[str, Any] = {"rpm": [0.0, 900.0], "peak_hz": [10.0, 20.0], "free": FREE, **arguments}
     with pytest.raises(sf.ArgumentError, match=said):
-        sf.measured_margin(saw, **given)
+        saw.measured_margin(**given)
 
 
 def test_the_command_writes_saws_modes_and_a_figure(
     saw: sf.Scene, found: sf.MeasuredMargin, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(_margin_command, "measured_margin", lambda *_, **__: found)
+    monkeypatch.setattr(sf.Scene, "measured_margin", lambda *_, **__: found)
     table = tmp_path / "peaks.csv"
     table.write_text('file,rpm,frequency_hz,amplitude,order\n"a",100,7.5,1,\n"a",100,1.7,1,1\n')
     given = {

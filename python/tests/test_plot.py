@@ -330,3 +330,21 @@ def test_both_libraries_draw_the_key_of_a_chart() -> None:
     figure = chart.plot_matplotlib().figure
     assert figure is not None and shown == names
     assert [text.get_text() for text in figure.legends[0].get_texts()] == names
+
+
+def test_charts_are_equal_and_hashed_by_their_contents(report: sf.CampbellResults) -> None:
+    chart, same, other = report.chart(), report.chart(), report.chart("root-loci")
+    assert chart == same and hash(chart) == hash(same) and {chart, same} == {same}
+    assert chart != other and chart.panels[0].items[0] == same.panels[0].items[0]
+
+
+def test_a_record_is_looked_at() -> None:
+    samples = np.sin(np.arange(100_000) / 20.0)
+    samples[70_123] = 5.0
+    record = sf.Record(samples, 1000, rpm=(0, 1000), unit="mm")
+    signal, speed = record.chart().panels
+    assert signal.y_name == "signal [mm]" and speed.y_name == "rotation speed [rpm]"
+    (line,) = (item for item in signal.items if isinstance(item, Line))
+    # A long record keeps its extremes.
+    assert len(line.x) < 5000 and line.y.max() == 5.0
+    assert len(record.plot_matplotlib().lines) == 1

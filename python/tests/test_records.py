@@ -11,6 +11,7 @@ import numpy.typing as npt
 import pytest
 
 import sawflutter as sf
+from sawflutter import _native
 from sawflutter.plot import Heat, Line, Points
 
 Array = npt.NDArray[Any]
@@ -217,6 +218,9 @@ def test_a_tap_test_at_rest_finds_the_stiffness(draft: sf.Scene, tmp_path: Path)
     # The file for the program gives the same.
     peaks.to_csv(tmp_path / "taps.csv", rows)
     assert draft.fit(tmp_path / "taps.csv", free=free, starts=2).parameters[0].value == fit.parameters[0].value
+    # Without rows all peaks are written, as `margin` reads them.
+    peaks.to_csv(tmp_path / "peaks.csv")
+    assert np.allclose(_native.peaks(tmp_path / "peaks.csv"), np.column_stack([peaks.rpm, peaks.frequency_hz]), atol=1e-6)
 
 
 @pytest.mark.parametrize("rpm", [0.0, 900.0])
@@ -340,3 +344,8 @@ def test_bad_arguments_are_refused_with_a_remedy(draft: sf.Scene, ramp: Array) -
     ):
         with pytest.raises(sf.InputError, match=said):
             call()
+
+
+def test_numbers_in_place_of_a_file_are_refused() -> None:
+    with pytest.raises(sf.ArgumentError, match=r"path must be the path of a file .*sf\.Record\("):
+        sf.read_record(np.zeros(8))  # type: ignore[arg-type]

@@ -5,6 +5,7 @@ from __future__ import annotations
 import copy
 import json
 import pickle
+import warnings
 from pathlib import Path
 
 import numpy as np
@@ -137,8 +138,8 @@ def test_what_is_no_scene_says_what_is() -> None:
 @pytest.mark.parametrize(
     ("path", "said"),
     [
-        ("guides[7].radius_m", "guides has 1 entries.*add_guide"),
-        ("guides.radius_m", "guides has 1 entries"),
+        ("guides[7].radius_m", "guides has 1 entry.*add_guide"),
+        ("guides.radius_m", "guides has 1 entry"),
         ("blade.thickness_m.x", "single value"),
         ("name[0]", "single value"),
         ("name.x", "single value"),
@@ -225,3 +226,33 @@ def test_arguments_and_keys_have_a_unit_by_their_names() -> None:
         ("margin", ""), ("blade.material.poisson_ratio", ""),
     ):  # fmt: skip
         assert _native.number(name, f"0.5 {unit}") == 0.5, name
+
+
+def test_all_missing_keys_are_named_at_once(draft: sf.Scene) -> None:
+    with pytest.raises(sf.SceneError, match="angle_deg.*radial_length_m.*stiffness_n_per_m"):
+        draft.replace({"guides": None}).add_guide(radius_m=0.2)
+    with pytest.raises(sf.SceneError, match="name: it is missing .*blade, mount"):
+        sf.Scene({})
+
+
+def test_an_implausible_number_is_warned_of_at_once(draft: sf.Scene) -> None:
+    with pytest.warns(sf.ModelWarning, match="thickness_m"):
+        thick = draft.replace({"blade.thickness_m": 0.05})
+    with warnings.catch_warnings():
+        warnings.simplefilter("error", sf.ModelWarning)
+        # The number is no news.
+        thick.replace({"name": "thick"})
+    with pytest.warns(sf.ModelWarning, match="thickness_m"):
+        sf.Scene(thick.to_dict())
+
+
+def test_values_of_numpy_may_be_arrays_of_one_element(draft: sf.Scene) -> None:
+    assert draft.replace({"operating_rpm": np.array([1200.0])}).operating_rpm == 1200.0
+    with pytest.raises(sf.SceneError, match=r"operating_rpm: must be a number \(you gave true\)"):
+        draft.replace({"operating_rpm": True})
+    assert draft.accuracy == "draft" and draft.replace({"operating_rpm": None}).operating_rpm is None
+
+
+def test_a_dict_is_not_loaded(draft: sf.Scene) -> None:
+    with pytest.raises(TypeError, match=r"Scene\(data\)"):
+        sf.Scene.load(draft.to_dict())  # type: ignore[arg-type]

@@ -100,3 +100,37 @@ def test_other_programs_take_it(damped: sf.Scene) -> None:
     system = signal.StateSpace(*space)
     _, response = signal.freqresp(system, w=[2 * np.pi * 5.0])
     assert response[0] == pytest.approx(space.response(5.0)[0, 0], rel=1e-8)
+
+
+def test_points_take_units(damped: sf.Scene) -> None:
+    m = damped.matrices(basis=(8, 5))
+    plain = m.state_space(1200, inputs=(0.3, 90), outputs=[(0.2, 0)])
+    assert m.state_space(1200, inputs=[("300 mm", "90 deg")], outputs=[("20 cm", 0)]) == plain
+    assert (m.at("200 mm", "90 deg") == m.at(0.2, 90)).all()
+    with pytest.raises(sf.ArgumentError, match=r"inputs must be points .* \(you gave \[\]\)"):
+        m.state_space(1200, inputs=[], outputs=RIM)
+    with pytest.raises(sf.ArgumentError, match="radius_m must be from"):
+        m.state_space(1200, inputs=[("300 m", 0)], outputs=RIM)
+
+
+@pytest.mark.parametrize("air", [40.0, None])
+def test_many_frequencies_have_the_responses_of_single_ones(draft: sf.Scene, air: float | None) -> None:
+    saw = draft.replace({"damping.air_n_s_per_m3": air} if air else {})
+    hz = np.linspace(1.0, 150.0, 120)
+    for space in (
+        saw.matrices(basis=(12, 6)).state_space(1200, inputs=RIM, outputs=[(0.3, 90.0), (0.25, 10.0)]),
+        saw.matrices(basis=(12, 6)).state_space(1200, inputs=RIM, outputs=RIM, to_hz=150),
+    ):
+        single = np.array([space.response(one) for one in hz])
+        assert np.allclose(space.response(hz), single, rtol=1e-8, atol=0.0)
+
+
+def test_coalescing_modes_are_solved_at_each_frequency() -> None:
+    # Two equal undamped oscillators, of which one drives the other: no eigenvectors are a basis.
+    stiffness = np.array([[4.0, 0.0], [1.0, 4.0]])
+    a = np.block([[np.zeros((2, 2)), np.eye(2)], [-stiffness, np.zeros((2, 2))]])
+    b, c = np.array([[0.0], [0.0], [1.0], [0.0]]), np.array([[0.0, 1.0, 0.0, 0.0]])
+    space = sf.StateSpace(0.0, a, b, c, np.zeros((1, 1)))
+    hz = np.linspace(0.0, 1.0, 101)
+    square = (2 * np.pi * hz) ** 2
+    assert np.allclose(space.response(hz)[:, 0, 0], -1.0 / (4.0 - square) ** 2, rtol=1e-9)

@@ -68,7 +68,7 @@ def test_executors_give_the_same_saws(study: sf.Study, tmp_path: Path) -> None:
         threaded = study.run(
             tmp_path / "threads",
             executor=threads,
-            progress=lambda done, of: told.append((done, of)),
+            progress=lambda done, of, _: told.append((done, of)),
         )
     with ProcessPoolExecutor(2, mp_context=get_context("spawn")) as processes:
         spread = study.run(tmp_path / "processes", executor=processes)
@@ -80,7 +80,7 @@ def test_a_stopped_study_goes_on(study: sf.Study, tmp_path: Path) -> None:
     class Enough(Exception):
         pass
 
-    def stop(done: int, of: int) -> None:
+    def stop(done: int, of: int, phase: str) -> None:
         if done >= 8:
             raise Enough
 
@@ -89,7 +89,7 @@ def test_a_stopped_study_goes_on(study: sf.Study, tmp_path: Path) -> None:
     logged = len(_rows(tmp_path))
     assert 0 < logged < 24 and not (tmp_path / "study.json").exists()
     told: list[int] = []
-    result = study.run(tmp_path, progress=lambda done, of: told.append(done))
+    result = study.run(tmp_path, progress=lambda done, of, _: told.append(done))
     assert result.all.saws == 24 and min(told) >= logged
 
 
@@ -224,6 +224,14 @@ def test_the_dashboard_of_a_cluster_is_named(
 
     told: list[tuple[int, int]] = []
     with Cluster(1) as executor:
-        study.run(tmp_path, executor=executor, progress=lambda done, of: told.append((done, of)))
+        study.run(tmp_path, executor=executor, progress=lambda done, of, _: told.append((done, of)))
     assert f"dashboard {Cluster.dashboard_link}" in capsys.readouterr().err
     assert told[-1] == (24, 24) and told == sorted(told)
+
+
+def test_a_study_needs_no_folder(study: sf.Study, tmp_path: Path) -> None:
+    result = study.run()
+    assert len(result.to_dataframe()) == study.count
+    result.save(tmp_path / "kept.json")
+    again = sf.load(tmp_path / "kept.json")
+    assert isinstance(again, sf.StudyResults) and again.to_dataframe().equals(result.to_dataframe())

@@ -310,7 +310,7 @@ def test_differing_processors_are_in_the_report(study: sf.Study, tmp_path: Path)
 def test_a_broken_pool_says_how_to_go_on(
     study: sf.Study, alone: dict[str, bytes], tmp_path: Path
 ) -> None:
-    def kill(done: int, of: int) -> None:
+    def kill(done: int, of: int, phase: str) -> None:
         if done > SAWS // 8:
             for process in list((pool._processes or {}).values()):
                 process.kill()

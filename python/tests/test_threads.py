@@ -49,7 +49,7 @@ def test_several_threads_compute_at_once(draft: sf.Scene) -> None:
 def test_progress_is_told_to_a_callable(draft: sf.Scene) -> None:
     told: list[tuple[int, int]] = []
     sf.Scene.paper().run_campbell(
-        accuracy="reference", progress=lambda done, of: told.append((done, of))
+        accuracy="reference", progress=lambda done, of, _: told.append((done, of))
     )
     assert told, "a chart takes longer than a beat"
     assert told[-1][0] == told[-1][1] > 0
@@ -60,14 +60,29 @@ def test_progress_is_told_to_a_callable(draft: sf.Scene) -> None:
 def test_progress_is_shown_as_a_bar(draft: sf.Scene, capsys: pytest.CaptureFixture[str]) -> None:
     draft.run_campbell(progress=True)
     shown = capsys.readouterr()
-    assert "speeds" in shown.err and shown.out == ""
+    assert "pieces of the search" in shown.err and shown.out == ""
+    # A bar without a total would begin with "0it".
+    assert ": 0it" not in shown.err and "100%" in shown.err.splitlines()[-1]
+
+
+def test_the_phase_is_named_to_every_callable(draft: sf.Scene) -> None:
+    told: list[tuple[int, int, str]] = []
+
+    def tell(done: int, of: int, phase: str) -> None:
+        told.append((done, of, phase))
+
+    draft.run_campbell(progress=tell)
+    draft.run_stiffness_map([1e7], progress=tell)
+    sf.compare([draft, draft], progress=tell)
+    phases = {phase for *_, phase in told}
+    assert {"pieces of the search", "saws"} <= phases and "" not in phases
 
 
 def test_an_exception_of_the_callable_ends_the_computation(draft: sf.Scene) -> None:
     class Enough(Exception):
         pass
 
-    def enough(done: int, of: int) -> None:
+    def enough(done: int, of: int, phase: str) -> None:
         raise Enough
 
     began = time.monotonic()

@@ -74,6 +74,15 @@ def split_null(schema: Schema) -> tuple[Schema, bool]:
     return schema, False
 
 
+def shape(schema: Schema) -> str:
+    """The shape of an array of numbers, as the end of its description."""
+    axes, inner = 0, split_null(schema)[0]
+    while inner.get("type") == "array":
+        axes, inner = axes + 1, split_null(inner["items"])[0]
+    is_array = axes > 0 and inner.get("type") in ("number", "integer", "boolean")
+    return f" Shape ({', '.join('nmk'[:axes])})." if is_array else ""
+
+
 def default(schema: Schema, there: bool, kind: str) -> str | None:
     """The default of a key that may be absent, also because earlier versions did not write it; none
     if it is always there."""
@@ -307,7 +316,7 @@ class ReportTypes:
                 settings.append(f'metadata={{"key": "{key}"}}')
             given = f" = field({', '.join(settings)})" if settings else ""
             fields.append(f"    {attribute}: {kind}{given}")
-            about = " ".join(of.get("description", key).split()).replace("\\", "\\\\")
+            about = " ".join(of.get("description", key).split()).replace("\\", "\\\\") + shape(of)
             said += textwrap.wrap(f"{attribute} : {about}", WIDTH, initial_indent="    ", subsequent_indent="        ")
         self.written[name] = [*lines, *said, '    """', "", *fields]
 

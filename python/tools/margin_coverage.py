@@ -61,7 +61,7 @@ def main(begin: int, end: int) -> None:
     saw, counts = nominal(), Counter[str]()
     for seed in range(begin, end):
         real, numbers, rpm, hz = simulated(saw, seed)
-        true, found = real.speeds(beside=saw), sf.measured_margin(saw, rpm, hz, FREE, steps=STEPS, seed=seed)
+        true, found = real.speeds(beside=saw), saw.measured_margin(rpm, hz, FREE, steps=STEPS, seed=seed)
         critical, flutter = (np.nan if of is None else of for of in (true.first_critical_rpm, true.flutter_rpm))
         truths = [*zip(FREE, numbers, found.numbers.T), ("critical speed", critical, found.critical_rpm)]
         for name, truth, values in [*truths, ("flutter speed", flutter, found.flutter_rpm)]:

@@ -28,6 +28,19 @@ MORE = {
     "the same table as rows (rpm, hz, hz, ...) or (rpm, [hz, hz, ...]), as an array, or as a data frame with a "
     "column or an index rpm, with NaN for a blank. A list of frequencies alone is measured at rest.",
 }
+# Sections of each method.
+ENDS = """
+Returns
+-------
+{result}
+
+Raises
+------
+InputError
+    An argument or a number of the scene is refused.
+AnalysisError
+    The saw cannot be analysed.
+"""
 EXAMPLES = {
     "check": """
     >>> import sawflutter as sf
@@ -125,6 +138,7 @@ def method(call: dict[str, Any]) -> str:
         lines.append(f"        {argument['name']} : {declared(argument)[2]}")
         lines += textwrap.wrap(about, WIDTH, initial_indent=" " * 12, subsequent_indent=" " * 12)
     lines += [f"        {', '.join(shared)}", "            As in :meth:`run_campbell`."]
+    lines += textwrap.indent(ENDS.format(result=result), " " * 8, lambda line: line.strip() != "").splitlines()
     if name in EXAMPLES:
         example = textwrap.indent(textwrap.dedent(EXAMPLES[name]).strip(), " " * 8)
         lines += ["", "        Examples", "        --------", example]

@@ -14,7 +14,7 @@ import numpy as np
 
 from .. import _native
 from .._drawn import Drawn
-from .._entry import FloatArray
+from .._entry import Entry, FloatArray
 
 # Letters in a line below the title.
 FACTS = 110
@@ -28,8 +28,8 @@ def colours() -> Mapping[str, str]:
     return MappingProxyType(named)
 
 
-@dataclass(frozen=True)
-class Line:
+@dataclass(frozen=True, eq=False, repr=False)
+class Line(Entry):
     """A curve, interrupted by NaN."""
 
     x: FloatArray
@@ -44,8 +44,8 @@ class Line:
     """Label at the last point."""
 
 
-@dataclass(frozen=True)
-class Points:
+@dataclass(frozen=True, eq=False, repr=False)
+class Points(Entry):
     """Marks, each a disc, a ring, a square or a cross."""
 
     x: FloatArray
@@ -57,8 +57,8 @@ class Points:
     hover: Sequence[str] = ()
 
 
-@dataclass(frozen=True)
-class Bars:
+@dataclass(frozen=True, eq=False, repr=False)
+class Bars(Entry):
     """A histogram."""
 
     edges: FloatArray
@@ -67,8 +67,8 @@ class Bars:
     name: str = ""
 
 
-@dataclass(frozen=True)
-class Heat:
+@dataclass(frozen=True, eq=False, repr=False)
+class Heat(Entry):
     """Values over two axes, with one row of z for each y; NaN is blank. One colour is that of a class
     of cells, whose values have no meaning."""
 
@@ -82,8 +82,8 @@ class Heat:
     """Whether the colours follow the logarithm of the values."""
 
 
-@dataclass(frozen=True)
-class Area:
+@dataclass(frozen=True, eq=False, repr=False)
+class Area(Entry):
     """Columns from a lower to an upper value; without steps, their ends are connected."""
 
     x: FloatArray
@@ -104,8 +104,8 @@ class Area:
         return np.nan_to_num(np.maximum(self.high - self.low, 0.0))
 
 
-@dataclass(frozen=True)
-class Label:
+@dataclass(frozen=True, eq=False, repr=False)
+class Label(Entry):
     """A text at a point."""
 
     x: float
@@ -114,8 +114,8 @@ class Label:
     name: str
 
 
-@dataclass(frozen=True)
-class Shade:
+@dataclass(frozen=True, eq=False, repr=False)
+class Shade(Entry):
     """An interval of the x axis, coloured over the height of the panel."""
 
     start: float
@@ -124,8 +124,8 @@ class Shade:
     name: str = ""
 
 
-@dataclass(frozen=True)
-class Upright:
+@dataclass(frozen=True, eq=False, repr=False)
+class Upright(Entry):
     """A vertical line over the height of the panel."""
 
     x: float
@@ -138,8 +138,8 @@ Item: TypeAlias = "Line | Points | Area | Bars | Heat | Label | Shade | Upright"
 Shape: TypeAlias = Literal["disc", "ring", "square", "cross"]
 
 
-@dataclass(frozen=True)
-class Panel:
+@dataclass(frozen=True, eq=False, repr=False)
+class Panel(Entry):
     """Axes and their contents."""
 
     x_name: str
@@ -172,8 +172,8 @@ class Panel:
         return f"<Panel {self.y_name!r} over {self.x_name!r}: {len(self.items)} items>"
 
 
-@dataclass(frozen=True)
-class Chart(Drawn):
+@dataclass(frozen=True, eq=False, repr=False)
+class Chart(Drawn, Entry):
     """Panels one above the other, which share the x axis if it is the same in all."""
 
     title: str

@@ -8,15 +8,7 @@ impl CommandOptions for Options {
     type Report = DeflectReport;
     const COMMAND: &str = "deflect";
     const METHOD: &str = "run_deflect";
-    const SETS: &[SceneNumber] = &[
-        SceneNumber::FORCE,
-        SceneNumber::new(
-            "angle_deg",
-            "",
-            "side_force.angle_deg",
-            "Angle of the side force, in place of that of the scene",
-        ),
-    ];
+    const SETS: &[SceneNumber] = &[SceneNumber::FORCE, SceneNumber::ANGLE];
 
     fn compute(&self, scene: &Scene, _: Progress<'_>) -> Result<DeflectReport, CommandError> {
         Ok(deflect(scene, self)?)

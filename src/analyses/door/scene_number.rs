@@ -23,6 +23,13 @@ impl SceneNumber {
         "side_force.force_n",
         "Constant side force, in place of side_force.force_n of the scene; 1 N in a scene without one",
     );
+    /// The place of the side force around the axis.
+    pub(crate) const ANGLE: Self = SceneNumber::new(
+        "angle_deg",
+        "",
+        "side_force.angle_deg",
+        "Angle of the side force, in place of that of the scene",
+    );
     /// The power of the cut.
     pub(crate) const POWER: Self =
         SceneNumber::new("power_w", "power", "cut.power_w", "Power of the cut");

@@ -1,13 +1,14 @@
 //! `sawflutter response` for every face.
 
 use super::{Options, ResponseError, ResponseReport, response};
-use crate::analyses::door::{CommandError, CommandOptions, Progress};
+use crate::analyses::door::{CommandError, CommandOptions, Progress, SceneNumber};
 use crate::model::scene::Scene;
 
 impl CommandOptions for Options {
     type Report = ResponseReport;
     const COMMAND: &str = "response";
     const METHOD: &str = "run_response";
+    const SETS: &[SceneNumber] = &[SceneNumber::FORCE, SceneNumber::ANGLE];
 
     fn compute(&self, scene: &Scene, _: Progress<'_>) -> Result<ResponseReport, CommandError> {
         Ok(response(scene, self)?)

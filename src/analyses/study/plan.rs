@@ -163,7 +163,7 @@ impl Study {
 
     /// The basis of the saw without deviations, from which the choice of the basis of every saw starts. It
     /// does not depend on which saws are computed or in which order. `None` if that saw cannot be analysed.
-    pub(crate) fn basis(&self) -> Option<Resolution> {
+    pub fn basis(&self) -> Option<Resolution> {
         if let Some(known) = self.basis.get() {
             return *known;
         }

@@ -94,8 +94,8 @@ stiffness and 1 % of other numbers.";
 pub const RESPONSE: &str = "\
 Examples:
   sawflutter response my-saw.json              # what the scene has of causes
-  sawflutter response my-saw.json --set side_force.force_n=5N \\
-    --set response.flatness_m=0.05mm           # a side force, a warped blade
+  sawflutter response my-saw.json --force 5N --set response.flatness_m=0.05mm
+                             # a side force, a warped blade
   sawflutter response my-saw.json --rpm 1200 --to-frequency 300
                              # from the force to the probe, over the frequency
   sawflutter response my-saw.json --json | jq '.lines[].resonances'

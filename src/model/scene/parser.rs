@@ -116,6 +116,21 @@ mod tests {
     }
 
     #[test]
+    fn all_missing_keys_are_named_at_once() {
+        let said = |text: &str| Scene::from_json(text).unwrap_err().to_string();
+        let found = said(r#"{ "name": "a", "blade": {}, "guides": [{ "radius_m": 0.2 }] }"#);
+        for key in [
+            "blade.material",
+            "guides[0].angle_deg",
+            "guides[0].stiffness_n_per_m",
+        ] {
+            assert!(found.contains(key), "{found}");
+        }
+        assert!(!found.contains("guides[0].radius_m"), "{found}");
+        assert!(said("{}").starts_with("name: it is missing (also missing: blade, mount)"));
+    }
+
+    #[test]
     fn a_schema_may_be_named_and_remarks_have_a_place() {
         let address = "https://example.org/scene.json";
         let scene = with(&format!("\"$schema\": \"{address}\","), "42").unwrap();

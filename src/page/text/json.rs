@@ -1,8 +1,10 @@
 //! Reads JSON with comments and with other deviations from the standard that are unambiguous.
 
+use schemars::JsonSchema;
 use serde::de::DeserializeOwned;
 
 use super::fault::{Fault, KeyedError, offset};
+use super::missing::missing_keys;
 use super::problem;
 use super::token::{Part, Token, tokens, without_comments};
 
@@ -11,7 +13,7 @@ use super::token::{Part, Token, tokens, without_comments};
 ///
 /// # Errors
 /// [`KeyedError`] if the text is not JSON, or not that of a `T`.
-pub(crate) fn from_keyed_json<T: DeserializeOwned>(
+pub(crate) fn from_keyed_json<T: DeserializeOwned + JsonSchema>(
     text: &str,
     whole: &str,
 ) -> Result<T, KeyedError> {
@@ -21,7 +23,10 @@ pub(crate) fn from_keyed_json<T: DeserializeOwned>(
             Ok(value) => return Ok(value),
             Err(fault) => match meant(&text, &fault.error) {
                 Some(next) => text = next,
-                None => return Err(problem::explain(&text, &fault, whole)),
+                None => {
+                    let missing = || missing_keys::<T>(&strict(&text).unwrap_or_default());
+                    return Err(problem::explain(&text, &fault, whole, missing));
+                }
             },
         }
     }

@@ -4,6 +4,7 @@
 mod fault;
 mod file;
 mod json;
+mod missing;
 mod number;
 mod problem;
 mod token;

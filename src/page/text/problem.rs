@@ -44,8 +44,13 @@ impl Problem {
     }
 }
 
-/// Finds the key and the cause of an error of the parser, and a remedy.
-pub(super) fn explain(text: &str, fault: &Fault, whole: &str) -> KeyedError {
+/// Finds the key and the cause of an error of the parser, and a remedy; `missing` lists all keys that are missing.
+pub(super) fn explain(
+    text: &str,
+    fault: &Fault,
+    whole: &str,
+    missing: impl Fn() -> Vec<String>,
+) -> KeyedError {
     let Fault { path, error } = fault;
     let words = error.to_string();
     let said = words.split(" at line ").next().unwrap_or_default();
@@ -63,14 +68,20 @@ pub(super) fn explain(text: &str, fault: &Fault, whole: &str) -> KeyedError {
         _ => of_syntax(text, path, error)
             .unwrap_or_else(|| Problem::at(path, format!("it is no JSON: {said} (line {line})"))),
     };
+    let is_missing = said.starts_with("missing field");
+    let mut others = if is_missing { missing() } else { Vec::new() };
+    others.retain(|other| *other != key);
+    let also = if others.is_empty() {
+        String::new()
+    } else {
+        format!(" (also missing: {})", others.join(", "))
+    };
     KeyedError {
         key: if key.is_empty() { whole.into() } else { key },
-        message,
+        message: message + &also,
         allowed,
         remedy,
-        of_keys: error.is_eof()
-            || said.starts_with("missing field")
-            || said.starts_with("unknown field"),
+        of_keys: error.is_eof() || is_missing || said.starts_with("unknown field"),
     }
 }
 
@@ -183,7 +194,7 @@ fn of_type(path: &str, line: usize, found: &str, expected: &str) -> Problem {
     };
     let first = expected.split(' ').next().unwrap_or_default();
     let must = match first {
-        "f64" | "f32" => "a number, like 0.0028",
+        "f64" | "f32" => "a number",
         "u8" | "u32" | "u64" | "usize" => "a whole number, 0 or more",
         "struct" | "internally" => "an object in braces { }",
         _ if expected.starts_with("a string") => "a text in double quotation marks",
