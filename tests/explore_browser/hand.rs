@@ -9,7 +9,7 @@ impl Page {
     pub async fn wheel(&self, selector: &str, pixels: i64) {
         self.script(&format!(
             "const over = document.querySelector({selector:?}); const box = over.getBoundingClientRect(); \
-             over.dispatchEvent(new WheelEvent('wheel', {{ deltaY: {pixels}, cancelable: true, \
+             over.dispatchEvent(new WheelEvent('wheel', {{ deltaY: {pixels}, cancelable: true, ctrlKey: true, \
              clientX: box.left + box.width / 2, clientY: box.top + box.height / 2 }}))"
         ))
         .await;

@@ -349,6 +349,58 @@ fn a_saw_is_saved_to_the_file_that_the_program_was_started_with() {
     });
 }
 
+/// A report that is opened as a scene opens its scene, and a damaged link is reported until the message is closed.
+#[test]
+#[ignore = "needs chromium and chromium-driver; run by .ci/run"]
+fn a_report_opens_its_scene_and_a_damaged_link_is_reported() {
+    run(async {
+        let page = Page::open(&["--accuracy", "draft"]).await;
+        page.settle().await;
+        page.script("sawflutter.open(new File([JSON.stringify({ scene: { ...sawflutter.state.scene, name: 'of a report' }, accuracy: {} })], 'r.json'))")
+            .await;
+        page.wait("sawflutter.state.scene.name === 'of a report'")
+            .await;
+        let told = page.text("#notice span").await;
+        assert!(told.starts_with("r.json is a report"), "{told}");
+        page.script("location.hash = '#scene=abc%%'").await;
+        page.wait("document.querySelector('#notice').textContent.includes('copy the whole link')")
+            .await;
+        page.settle().await;
+        page.find("#dismiss").await.click().await.unwrap();
+        assert_eq!(
+            page.value("document.querySelector('#notice').hidden").await,
+            json!(true)
+        );
+
+        // A saw that the program will refuse is not saved without a word.
+        page.enter("operating_rpm", "-5").await;
+        page.wait("document.getElementById('operating_rpm:fault').textContent !== ''")
+            .await;
+        page.download("scene.json").await;
+        assert!(page.text("#notice").await.contains("will refuse it"));
+        page.close().await;
+    });
+}
+
+/// A saw is not saved under the name of a file that *Undo* has left.
+#[test]
+#[ignore = "needs chromium and chromium-driver; run by .ci/run"]
+fn the_name_of_the_file_follows_undo() {
+    run(async {
+        let page = Page::open(&["--accuracy", "draft"]).await;
+        let name = "sawflutter.nameOf('scene.json')";
+        let before = page.value(name).await;
+        page.script("sawflutter.open(new File([JSON.stringify({ ...sawflutter.state.scene, name: 'another' })], 'ring.json'))")
+            .await;
+        page.wait(&format!("{name} === 'ring.json'")).await;
+        page.script("sawflutter.state.undo()").await;
+        assert_eq!(page.value(name).await, before);
+        page.script("sawflutter.state.redo()").await;
+        assert_eq!(page.value(name).await, json!("ring.json"));
+        page.close().await;
+    });
+}
+
 /// The test uses a file in the storage of the browser in place of a file of the computer.
 #[test]
 #[ignore = "needs chromium and chromium-driver; run by .ci/run"]

@@ -347,6 +347,15 @@ fn a_slider_and_the_chart_are_seen_together_on_a_small_screen() {
             seen[0][0] >= 0.0 && seen[0][1] <= seen[1][0] && seen[1][1] <= 844.0,
             "{seen:?}"
         );
+        // The answer and the ruler are above the chart.
+        let json = page
+            .value("['#verdict strong', '#ruler'].map((part) => document.querySelector(part).getBoundingClientRect()).map(({ top, bottom }) => [top, bottom])")
+            .await;
+        let above: [[f64; 2]; 2] = serde_json::from_value(json).unwrap();
+        assert!(
+            above[0][0] >= 0.0 && above[1][1] <= seen[0][0] + 1.0,
+            "{above:?}, {seen:?}"
+        );
         page.script("scrollTo(0, 0)").await;
         page.wait("document.querySelector('.docked') === null")
             .await;
@@ -388,6 +397,10 @@ fn the_printed_page_has_the_answer_and_the_chart_of_a_named_saw() {
             page.value(seen).await,
             json!([true, true, true, true, false, false, false])
         );
+        let numbers = page.text("#printed").await;
+        for words in ["thickness of the blade2.8 mm", "guide 1: radius200 mm"] {
+            assert!(numbers.contains(words), "{numbers}");
+        }
         let paper = page
             .value("getComputedStyle(document.body).backgroundColor")
             .await;

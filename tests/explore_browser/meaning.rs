@@ -158,3 +158,39 @@ fn contrast(first: &Value, second: &Value) -> f64 {
     let [x, y] = [first, second].map(luminance);
     (x.max(y) + 0.05) / (x.min(y) + 0.05)
 }
+
+/// Texts of the program have the names and the units of the form.
+#[test]
+#[ignore = "needs chromium and chromium-driver; run by .ci/run"]
+fn texts_of_the_program_have_the_words_of_the_form() {
+    run(async {
+        let page = Page::open(&["--accuracy", "draft"]).await;
+        page.settle().await;
+        let range = "blade.thickness_m (thickness of the blade) from 0.00224 to 0.00336 m; map.json has all";
+        let pad = "guides[0].stiffness_n_per_m = 2e7 N/m at r = 355 mm";
+        for (inches, wanted) in [
+            (
+                false,
+                [
+                    "thickness of the blade from 2.24 to 3.36 mm; map.json has all",
+                    "guide 1: stiffness = 20 MN/m at r = 355 mm",
+                ],
+            ),
+            (
+                true,
+                [
+                    "thickness of the blade from 0.08819 to 0.1323 in; map.json has all",
+                    "guide 1: stiffness = 20 MN/m at r = 13.98 in",
+                ],
+            ),
+        ] {
+            page.script(&format!("const box = document.getElementById('inches'); if (box.checked !== {inches}) box.click()"))
+                .await;
+            let told = page
+                .awaited(&format!("{{ const {{ inForm }} = await import('./page/phrases.js'); return [{range:?}, {pad:?}].map(inForm); }}"))
+                .await;
+            assert_eq!(told, json!(wanted));
+        }
+        page.close().await;
+    });
+}

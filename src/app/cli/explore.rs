@@ -17,7 +17,8 @@ Examples:
 The page comes from the program itself, to this computer alone (127.0.0.1);
 nothing is fetched from the net, nothing is written but what you save. Closing a
 page stops what it computes; the program ends with Ctrl-C, or three seconds
-after the last page that was opened has been closed.";
+after the last page that was opened has been closed, two and a half minutes
+after a browser that was ended without closing it.";
 
 #[derive(Args)]
 pub struct Arguments {

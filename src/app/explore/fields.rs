@@ -35,6 +35,8 @@ pub struct Field {
     pub name: &'static str,
     /// Name beside the field: the key without its unit.
     pub label: String,
+    /// Unit in scenes; empty for a dimensionless number.
+    si: &'static str,
     /// Whether the number is a count.
     pub whole: bool,
     /// Kind of the number.
@@ -89,9 +91,10 @@ impl Field {
         QUANTITIES.iter().map(Field::new).collect()
     }
 
-    /// Returns the field of a path such as `guides[0].radius_m`; `None` if it is not that of a number.
+    /// Returns the field of a path such as `guides[0].radius_m`; `None` if it is not that of a number or of a list of numbers.
     pub fn of(path: &str) -> Option<Self> {
-        Quantity::of(path).map(Field::new)
+        let quantity = Quantity::of(path).or_else(|| Quantity::of(&format!("{path}[]")));
+        quantity.map(Field::new)
     }
 
     fn new(quantity: &Quantity) -> Self {
@@ -125,6 +128,7 @@ impl Field {
             path: quantity.path,
             name: quantity.name,
             label: label.replace('_', " "),
+            si: quantity.unit,
             whole: quantity.kind == Kind::Count,
             kind: quantity.kind,
             usual: quantity.usual,

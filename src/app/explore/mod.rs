@@ -7,6 +7,8 @@
 mod answer;
 mod backend;
 mod charts;
+#[cfg(feature = "explore")]
+mod connections;
 mod early_answer;
 mod entry;
 mod examples;

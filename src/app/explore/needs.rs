@@ -78,7 +78,7 @@ pub const NEEDS: &[Need] = &[
     Need {
         of: "gap",
         any: &[Condition::with("guides[].contact", "one_sided")],
-        otherwise: "The scene has no guide with a gap: give a guide the contact one_sided and its gap.",
+        otherwise: "The scene has no guide with a gap.",
     },
     Need {
         of: "blade.slots",

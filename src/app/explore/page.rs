@@ -45,6 +45,8 @@ files! {
     "hand.js": SCRIPT, "page/hand.js";
     "blade.js": SCRIPT, "page/blade.js";
     "shapes.js": SCRIPT, "page/shapes.js";
+    "sheet.js": SCRIPT, "page/sheet.js";
+    "phrases.js": SCRIPT, "page/phrases.js";
     "motion.js": SCRIPT, "page/motion.js";
     "charts.js": SCRIPT, "page/charts.js";
     "colours.js": SCRIPT, "page/colours.js";

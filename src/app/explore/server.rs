@@ -17,6 +17,7 @@ use futures_util::stream::unfold;
 use tokio::net::TcpListener;
 
 use super::backend::{Answer, Backend, LINES, Question};
+use super::connections;
 use super::fields::Units;
 use super::guard::{OwnHosts, guard};
 use super::job::Jobs;
@@ -110,10 +111,11 @@ pub fn serve(
         let app = router(server, OwnHosts::new(port));
         ready(&format!("http://127.0.0.1:{port}/"));
         tokio::select! {
-            served = async { axum::serve(listener, app).await } => served.map_err(ExploreError::from),
-            _ = tokio::signal::ctrl_c() => Ok(()),
-            () = pages.last_closed() => Ok(()),
+            () = connections::serve(listener, app, connections::PATIENCE) => (),
+            _ = tokio::signal::ctrl_c() => (),
+            () = pages.last_closed() => (),
         }
+        Ok(())
     });
     // Running computations are not waited for; they end with the process.
     runtime.shutdown_background();

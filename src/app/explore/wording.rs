@@ -26,6 +26,12 @@ pub fn in_field_units(
         unit => format!(", in {unit}"),
     };
     let subject = subject(&field);
+    if typed.is_some_and(Value::is_array) {
+        return Some(format!(
+            "{subject} must be {}",
+            converted(path, allowed?, unit)
+        ));
+    }
     let number = typed.and_then(Value::as_f64);
     let is_count = |number: f64| number >= 0.0 && number.fract() == 0.0;
     if field.whole && !number.is_some_and(is_count) {
@@ -263,6 +269,14 @@ mod tests {
         for (path, typed, wanted) in cases {
             assert_eq!(told(path, &typed, Units::Metric), wanted);
         }
+        let mut scene = serde_json::to_value(Scene::paper().file()).unwrap();
+        scene["guides"][0]["controller"] = json!({ "numerator": [1, 1, 1, 1], "denominator": [1] });
+        let text = scene.to_string();
+        let refusal = Refusal::from(Scene::from_json(&text).unwrap_err());
+        assert_eq!(
+            refusal.in_field(&text, Units::Metric).told.as_deref(),
+            Some("Numerator must be 1 to 2 numbers, with this denominator")
+        );
         assert_eq!(
             told("guides[0].radius_m", &json!(0.9), Units::Inches),
             "Radius must be such that the pad lies on the blade, which reaches from r = 3.93701 to 13.9764 in"

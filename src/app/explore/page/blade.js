@@ -3,7 +3,7 @@
 import { drawn } from "./dom.js";
 import { turned } from "./pairs.js";
 import { get, set } from "./scene.js";
-import { atPad, circle, ground, outline, polar, radians, reachOf, viewOf } from "./shapes.js";
+import { atPad, besideBlade, circle, ground, outline, overhangs, polar, radians, reachOf, signs, viewOf } from "./shapes.js";
 import { shown, tidy } from "./words.js";
 
 const STEP_M = 0.001;
@@ -33,6 +33,12 @@ function move(scene, path, { radius_m, angle_deg }) {
 function resize(pad, long, wide) {
   pad.radial_length_m = metres(Math.max(long, LEAST_SIDE_M));
   pad.tangential_length_m = metres(Math.max(wide, LEAST_SIDE_M));
+}
+
+// What holds or damps a pad beside its spring, in words.
+function held(pad) {
+  const words = Object.entries({ arm: "on an arm", film: "with a film", controller: "with a controller" });
+  return words.map(([key, told]) => (pad[key] ? `, ${told}` : "")).join("");
 }
 
 function name(group, text) {
@@ -65,7 +71,15 @@ export class Blade {
     });
     this.things = drawn("g", {});
     this.mark = drawn("g", { class: "turns" });
-    svg.append(this.ground, this.things, this.mark);
+    // Hatching of the parts of pads that are beside the blade. The model takes the pads without them.
+    this.pads = drawn("clipPath", { id: "pads-of-the-saw" });
+    this.hatching = drawn("pattern", { id: "hatching", patternUnits: "userSpaceOnUse", patternTransform: "rotate(45)" }, drawn("path", { class: "hatch" }));
+    this.beside = drawn("path", { class: "beside", "clip-path": "url(#pads-of-the-saw)", fill: "url(#hatching)", "fill-rule": "evenodd" });
+    this.uncounted = drawn("text", { class: "uncounted" });
+    this.uncounted.textContent = "Only the part of a pad on the blade counts.";
+    svg.append(drawn("defs", {}, this.pads, this.hatching), this.ground, this.things, this.beside, this.uncounted, this.mark);
+    // A finger needs a larger handle.
+    this.isCoarse = matchMedia("(pointer: coarse)");
     // The width is stored, because reading it at every move would force a layout each time.
     this.width = svg.clientWidth || 400;
     new ResizeObserver(() => {
@@ -114,6 +128,18 @@ export class Blade {
       else if (path === "cut") this.#drawCut(group, scene);
       else this.#drawProbe(group, placeOf(scene, path));
     }
+    this.#hatch(scene, reach);
+  }
+
+  #hatch({ blade, guides = [] }, reach) {
+    const over = guides.filter((pad) => pad.radial_length_m > 0 && overhangs(pad, blade));
+    const px = this.pixel;
+    this.pads.replaceChildren(...over.map((pad) => drawn("path", { d: outline(pad.radial_length_m, pad.tangential_length_m, pad.shape), transform: atPad(pad) })));
+    setAll(this.hatching, { width: 6 * px, height: 6 * px });
+    setAll(this.hatching.firstElementChild, { d: `M0 ${3 * px}H${6 * px}`, "stroke-width": 2 * px });
+    this.beside.setAttribute("d", besideBlade(blade, reach));
+    setAll(this.uncounted, { y: reach - 4 * px, "font-size": 13 * px, "stroke-width": 4 * px });
+    for (const part of [this.beside, this.uncounted]) part.style.display = over.length > 0 ? "" : "none";
   }
 
   #drawGround(scene, reach) {
@@ -124,8 +150,8 @@ export class Blade {
     const r = b * 0.5 + a * 0.5;
     const [[x, y], [u, v]] = [polar(r, 205), polar(r, 250)];
     const [p, q, t] = [polar(r, 257), polar(r - 5 * px, 248), polar(r + 5 * px, 248)];
-    const signs = { rotation: `M${x} ${y}A${r} ${r} 0 0 0 ${u} ${v}`, "rotation-head": `M${p}L${q}L${t}Z`, axis: `M${-6 * px} 0H${6 * px}M0 ${-6 * px}V${6 * px}` };
-    this.ground.replaceChildren(...ground(scene), ...Object.entries(signs).map(([kind, d]) => drawn("path", { class: kind, d })));
+    const arrows = { rotation: `M${x} ${y}A${r} ${r} 0 0 0 ${u} ${v}`, "rotation-head": `M${p}L${q}L${t}Z`, axis: `M${-6 * px} 0H${6 * px}M0 ${-6 * px}V${6 * px}` };
+    this.ground.replaceChildren(...ground(scene), ...Object.entries(arrows).map(([kind, d]) => drawn("path", { class: kind, d })));
     this.mark.replaceChildren(drawn("circle", { class: "mark", cx: b * 0.93, cy: 0, r: 4 * px }));
   }
 
@@ -138,7 +164,7 @@ export class Blade {
     this.#hold(body, path, (scene, [x, y], [u, v]) => move(scene, path, placeAt(x - u, y - v)));
     if (isPad(path)) {
       const handle = drawn("rect", { class: "handle" });
-      group.append(handle, drawn("text", { class: "number" }), drawn("text", { class: "hint" }));
+      group.append(handle, drawn("text", { class: "number" }), drawn("text", { class: "hint" }), drawn("path", { class: "sign" }));
       this.#hold(handle, path, (scene, [x, y]) => {
         const pad = get(scene, path);
         const [cos, sin] = [Math.cos(radians(pad.angle_deg)), Math.sin(radians(pad.angle_deg))];
@@ -155,10 +181,12 @@ export class Blade {
     const point = pad.radial_length_m === 0;
     const [long, wide] = point ? [12 * px, 12 * px] : [pad.radial_length_m, pad.tangential_length_m];
     group.setAttribute("transform", atPad(pad));
-    const [, body, handle, text, hint] = group.children;
+    const [, body, handle, text, hint, sign] = group.children;
+    sign.setAttribute("d", signs(pad, long, wide, px));
     body.setAttribute("d", outline(long, wide, point ? "round" : pad.shape));
     // The handle leaves most of a small pad free for moving it, but is always large enough to be touched.
-    const size = Math.max(Math.min(11 * px, 0.45 * Math.min(long, wide)), 6 * px);
+    const [most, least] = this.isCoarse.matches ? [24, 12] : [11, 6];
+    const size = Math.max(Math.min(most * px, 0.45 * Math.min(long, wide)), least * px);
     setAll(handle, { x: long / 2 - size / 2, y: -wide / 2 - size / 2, width: size, height: size });
     handle.style.display = point ? "none" : "";
     // The number is upright. It is placed beside a small pad, which it would cover otherwise.
@@ -168,7 +196,7 @@ export class Blade {
     setAll(hint, { transform: `rotate(${pad.angle_deg}) translate(0 ${-0.5 * Math.hypot(long, wide)})`, "font-size": 14 * px, "stroke-width": 4 * px });
     hint.textContent = number === 1 ? "drag me" : "";
     name(group, `Pad ${number}: radius ${shown(pad.radius_m * 1e3, 4)} mm, angle ${shown(pad.angle_deg, 4)}°, `
-      + `${shown(pad.radial_length_m * 1e3, 4)} by ${shown(pad.tangential_length_m * 1e3, 4)} mm. `
+      + `${shown(pad.radial_length_m * 1e3, 4)} by ${shown(pad.tangential_length_m * 1e3, 4)} mm${held(pad)}. `
       + "Arrow keys move it, with Shift they change its size.");
   }
 

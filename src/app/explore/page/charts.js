@@ -11,6 +11,8 @@ const LEAST_STRETCH = 1e-3;
 // Largest number of rows of band labels, and the height of a row in pixels.
 const ROWS = 2;
 const ROW_PX = 14;
+// Height in pixels above the chart: header, answer, ruler, numbers and tabs.
+const ABOVE_PX = 340;
 
 export class Charts {
   // Chart of the present saw, with its figure and its report, as the program sends it.
@@ -52,6 +54,8 @@ export class Charts {
     this.#follow(campbellPlace);
     for (const { chart } of [this.campbell, this.growth]) this.#zoomTogether(chart);
     new ResizeObserver(() => this.resize()).observe(campbellPlace);
+    // The height of the window does not change that of the place.
+    addEventListener("resize", () => this.resize());
     this.resize();
   }
 
@@ -65,9 +69,13 @@ export class Charts {
     const width = this.places[0].clientWidth;
     if (width === 0) return;
     this.width = width;
-    const tall = Math.round(Math.min(Math.max(innerHeight * 0.46, 260), 470));
-    this.campbell.chart.setSize({ width, height: width < 480 ? 270 : tall });
-    this.growth.chart.setSize({ width, height: 190 });
+    // Both panels are in the first screen: together as high as it is below the answer, within limits.
+    const isNarrow = matchMedia("(max-width: 1000px)").matches;
+    const free = isNarrow ? 0.6 * innerHeight : innerHeight - ABOVE_PX - document.getElementById("welcome").offsetHeight;
+    // The height of a phone changes while it scrolls, and that of its charts does not.
+    const low = isNarrow ? 170 : Math.round(Math.min(Math.max(0.36 * free, 130), 190));
+    this.campbell.chart.setSize({ width, height: width < 480 ? 240 : Math.round(Math.min(Math.max(free - low, 210), 470)) });
+    this.growth.chart.setSize({ width, height: low });
   }
 
   showMeasured(on) {

@@ -20,13 +20,16 @@ class Field {
   isUnread = false;
   #put;
 
-  // `put(value)` shows a value of the scene, `renew()` takes a range about the present value, and `weigh(influence)` shows
-  // how the number influences the speeds.
-  constructor(path, control, { name, className = "", title = "", more = [], put, renew = () => {}, weigh = (_) => {} }) {
+  // `put(value)` shows a value of the scene, `renew()` takes a range about the present value, `weigh(influence)` shows how
+  // the number influences the speeds, and `entry` is the path of the number that a text means.
+  constructor(path, control, { name, className = "", title = "", more = [], put, entry = path, renew = () => {}, weigh = (_) => {} }) {
     this.path = path;
+    this.entry = entry;
     this.control = control;
     this.fault = node("p", { className: "fault", role: "alert", id: `${path}:fault` });
     control.setAttribute("aria-describedby", this.fault.id);
+    // A refusal is of the text that was there.
+    control.addEventListener("input", () => this.refuse(""));
     this.element = node("div", { className: `field ${className}`, title }, node("label", { htmlFor: path }, ...[name].flat()), control, ...more, this.fault);
     this.renew = renew;
     this.weigh = weigh;
@@ -53,7 +56,7 @@ class Field {
   // reason, and the scene does not change.
   async read(texts, take) {
     try {
-      take(await read(this.path, texts));
+      take(await read(this.entry, texts));
     } catch (error) {
       this.isUnread = true;
       this.refuse(error instanceof Refused ? error.told ?? error.message : LOST);
@@ -68,12 +71,12 @@ export function choice(path, name, values, { description: title = "", default: u
 }
 
 // A field for a text. `send(text)` is called with what is typed, and `words(value)` returns the text of a value.
-function typed(path, control, name, title, words, send) {
+function typed(path, control, name, title, words, send, own = {}) {
   const put = (value) => {
     if (document.activeElement !== control || control.value === control.defaultValue) control.value = words(value);
   };
   control.onchange = () => send(control.value);
-  return new Field(path, control, { name, title, className: "wide", put });
+  return new Field(path, control, { name, title, className: "wide", put, ...own });
 }
 
 export function line(path, name, { description }, state) {
@@ -93,7 +96,8 @@ export function numbers(path, { description }, state) {
   const { unit, scale, name } = unitOf(path);
   const words = (value) => (value ?? []).map((number) => shown(number * scale)).join(", ");
   const send = (text) => made.read(text.split(/[,;\s]+/).filter((one) => one !== ""), (list) => setList(state, path, list));
-  const made = typed(path, node("input", { id: path, type: "text", placeholder: "none" }), withUnit(name, unit), description, words, send);
+  const control = node("input", { id: path, type: "text", placeholder: "none" });
+  const made = typed(path, control, withUnit(name, unit), description, words, send, { className: "list", entry: `${path}[]` });
   return made;
 }
 

@@ -16,6 +16,21 @@ export function useInches(on) {
 
 export const unitsNow = () => units;
 
+// Returns the first field that satisfies a condition; undefined if none does.
+export const findField = (condition) => [...table.values()].find(condition);
+
+// Returns the field whose path ends with a key that has a unit; undefined if none does.
+export const keyOf = (key) => findField(({ path }) => key.includes("_") && path.replace(/\[\]$/, "").endsWith(`.${key}`));
+
+// Returns the unit of the form of a field, and the factor to it.
+export const unitOfField = (field) => field[units];
+
+// Returns the paths of the numbers of scenes whose path or name has these words.
+export function named(words) {
+  const isNamed = ({ path, name, label }) => `${path} ${path.replaceAll("_", " ")} ${name} ${label}`.toLowerCase().includes(words);
+  return [...table.values()].filter(isNamed).map(({ path }) => path);
+}
+
 // Returns the entry of a number or of a list of numbers; undefined if the table has none.
 export function fieldOf(path) {
   const general = path.replace(/\[\d+\]/g, "[]");
@@ -35,9 +50,21 @@ export function placeOf(path) {
   return path.startsWith("guides") ? `guide ${Number(/\d+/.exec(path)[0]) + 1}: ${name}` : name;
 }
 
-export function nameOf(path, value) {
+// Returns a name that is clear without the form around it.
+export function fullName(path) {
+  const index = [...path.matchAll(/\[(\d+)\]/g)].map(([, at]) => Number(at) + 1);
+  const name = fieldOf(path)?.name ?? unitOf(path).name;
+  return path.startsWith("guides") ? placeOf(path) : [name, ...index].join(" ");
+}
+
+// Returns a number with its unit in the form.
+export function worded(path, value, digits = 6) {
   const { unit, scale } = unitOf(path);
-  const words = typeof value === "number" ? `${shown(value * scale, 4)} ${unit}` : value === undefined ? "none" : typeof value === "object" ? "" : value;
+  return `${shown(value * scale, digits)} ${unit}`.trim();
+}
+
+export function nameOf(path, value) {
+  const words = typeof value === "number" ? worded(path, value, 4) : value === undefined ? "none" : typeof value === "object" ? "" : value;
   return `${placeOf(path)} ${words}`.trim();
 }
 

@@ -10,20 +10,21 @@ export class Files {
 
   // JSON of the scene in the address, or null.
   #linked = null;
-  // Name, without extension, of the file that the scene was opened from, or null.
-  #stem = null;
   // Text of the file of the saw, which another program has changed.
   #changed = "";
 
   #saving = null;
-  // `say(text)` shows an error. `onReplaced()` is called before another saw replaces the present one, `onBusy(name)`
+  // `say(text)` shows an error, and `notify(text)` a message that stays. `refusal()` returns why the scene is refused, or an
+  // empty text. `onReplaced()` is called before another saw replaces the present one, `onBusy(name)`
   // while the program makes a file, and with null after it, and `onChanged(name)` when another program has changed the
   // file of the saw. `shown()` waits for the identifier of the scene's chart.
-  constructor(state, kept, begun, { say, onReplaced, onBusy, onChanged, shown }) {
+  constructor(state, kept, begun, { say, notify, refusal, onReplaced, onBusy, onChanged, shown }) {
     this.state = state;
     this.kept = kept;
     this.begun = begun;
     this.say = say;
+    this.notify = notify;
+    this.refusal = refusal;
     this.onReplaced = onReplaced;
     this.onBusy = onBusy;
     this.onChanged = onChanged;
@@ -62,9 +63,10 @@ export class Files {
     return { name: handle.name, plain: isPlain(text), write: put };
   }
 
-  // Combines the file that a saw can be saved to, or null, with the scene as the file contains it.
-  #origin(target, scene) {
-    return { target, written: JSON.stringify(scene) };
+  // Combines the file that a saw can be saved to, or null, with the scene as the file contains it, and with the name,
+  // without extension, of the file that the saw was opened from, or null.
+  #origin(target, scene, stem = null) {
+    return { target, written: JSON.stringify(scene), stem };
   }
 
   // Name of the file that the saw can be saved to, and whether the saw differs from it; null if there is no file.
@@ -100,7 +102,7 @@ export class Files {
   async load() {
     const { target } = this.state.origin;
     await this.#opening(target.name, async () => {
-      this.#open(await read(this.#changed), { stem: this.#stem, target: { ...target, plain: isPlain(this.#changed) } });
+      this.#open(await read(this.#changed), { stem: this.state.origin.stem, target: { ...target, plain: isPlain(this.#changed) } });
     });
   }
 
@@ -111,7 +113,7 @@ export class Files {
   // Returns the name of a file of this saw, such as "six-pads-campbell.png", or "six-pads.json" for the scene itself.
   nameOf(file) {
     const plain = (this.state.scene.name ?? "").normalize("NFD").replace(/\p{M}/gu, "").toLowerCase();
-    const stem = this.#stem ?? (plain.replace(/[^a-z0-9]+/g, "-").slice(0, 60).replace(/^-|-$/g, "") || "saw");
+    const stem = this.state.origin.stem ?? (plain.replace(/[^a-z0-9]+/g, "-").slice(0, 60).replace(/^-|-$/g, "") || "saw");
     return file === "scene.json" ? `${stem}.json` : `${stem}-${file}`;
   }
 
@@ -128,10 +130,10 @@ export class Files {
 
   // Replaces the scene by that of another saw, which has no unsaved changes.
   #open(scene, { stem = null, target = null } = {}) {
-    this.#stem = stem;
     this.saved(scene);
+    this.notify("");
     this.onReplaced();
-    this.state.replace(scene, this.#origin(target, scene));
+    this.state.replace(scene, this.#origin(target, scene, stem));
   }
 
   choose(example) {
@@ -143,6 +145,8 @@ export class Files {
       // The page writes this file itself, because the server may have ended.
       download(this.nameOf(name), new Blob([this.#text()], { type: "application/json" }));
       this.saved();
+      const refusal = this.refusal();
+      this.notify(refusal && `${this.nameOf(name)} is saved, but sawflutter will refuse it: ${refusal}`);
       return;
     }
     this.stop();
@@ -172,8 +176,12 @@ export class Files {
         return;
       }
       const text = await file.text();
-      const scene = await read(text);
-      if (this.#mayReplace(file.name)) this.#open(scene, { stem: file.name.replace(/\.[^.]*$/, ""), target: handle && this.#ofBrowser(handle, text) });
+      const inner = sceneOfReport(text);
+      const scene = await read(inner ?? text);
+      if (!this.#mayReplace(file.name)) return;
+      if (inner) this.#open(scene);
+      else this.#open(scene, { stem: file.name.replace(/\.[^.]*$/, ""), target: handle && this.#ofBrowser(handle, text) });
+      if (inner) this.notify(`${file.name} is a report of sawflutter; this is its scene.`);
     });
   }
 
@@ -220,7 +228,7 @@ export class Files {
       const text = await carried();
       return text === null ? null : await read(text);
     } catch (error) {
-      this.say(`The scene in the address cannot be read: ${error.message}`);
+      this.notify(`The link has no scene that can be read: ${error instanceof Refused ? error.message : "it is incomplete; copy the whole link"}`);
       bare();
       return null;
     }
@@ -241,6 +249,16 @@ export class Files {
 
   startOver() {
     this.#open(this.begun.scene, { target: this.#ofProgram() });
+  }
+}
+
+// Returns the scene of a report as text; null if the text is no report.
+function sceneOfReport(text) {
+  try {
+    const { scene, blade } = JSON.parse(text);
+    return scene && !blade ? JSON.stringify(scene) : null;
+  } catch {
+    return null;
   }
 }
 

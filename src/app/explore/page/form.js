@@ -3,19 +3,30 @@
 
 import { choice, line, lines, numbers, quantity } from "./controls.js";
 import { arrange, node, write } from "./dom.js";
-import { unitOf } from "./fields.js";
+import { named, unitOf } from "./fields.js";
 import { lacks, putIn } from "./parts.js";
+import { inForm } from "./phrases.js";
 import { get } from "./scene.js";
 import { kindOf, resolved } from "./schema.js";
 import { Refused } from "./talk.js";
-import { partName } from "./words.js";
+import { lawOf, partName } from "./words.js";
 
 // Parts of the saw that can be selected, in the order of their groups.
 const PARTS = ["blade", "guides", "mount", "cut"];
 // Order of the first quantities; the others follow in the order of the schema. The first one is always shown.
 const ORDER = ["operating_rpm", ...PARTS];
-// Groups that the chart does not use, or only on request, and the command that uses each.
-const ELSEWHERE = { cut: "cut", "cut.washboarding": "washboard", runup: "runup", side_force: "deflect", friction: "gap", spline: "cut" };
+// Groups that the chart does not use, or only on request, and the tab that uses each.
+const ELSEWHERE = { cut: "Cut", "cut.washboarding": "Cut", runup: "Run-up and response", side_force: "Run-up and response", friction: "Guides", spline: "Cut" };
+
+// Returns the path of the part that the program adds for a number that a scene lacks: for a number of a pad, the pad or a part
+// of the first one. Null if the scene has the part.
+function lackedPart(number, scene) {
+  const block = number.split(".").slice(0, -1).join(".");
+  const path = scene.guides?.length > 0 ? block.replace(/^guides\[\]\./, "guides[0].") : block.replace(/^guides\[\].*/, "guides[]");
+  if (path === "" || path.startsWith("measured")) return null;
+  const part = get(scene, path.replace(/\[\]$/, ""));
+  return (Array.isArray(part) ? part.length > 0 : part !== undefined && part !== null) ? null : path;
+}
 
 export class Form {
   // Fields and groups that were made, and those fields that the present scene has.
@@ -33,7 +44,8 @@ export class Form {
       this.#show(value);
     } }));
     this.place = node("div");
-    place.append(node("div", { className: "tools parts" }, ...this.chips, this.search), this.place);
+    this.offers = node("div", { id: "offers", role: "status" });
+    place.append(node("div", { className: "tools parts" }, ...this.chips, this.search), this.offers, this.place);
     this.schema = schema;
     this.needs = needs;
     this.state = state;
@@ -55,16 +67,32 @@ export class Form {
       const path = child.dataset.path ?? child.querySelector("[id]").id;
       child.hidden ||= wanted === "" && part !== "" && ![part, ORDER[0]].includes(path);
     }
+    this.offers.replaceChildren(...(wanted === "" ? [] : this.#offersFor(wanted)));
+  }
+
+  // Returns sentences about the parts that the scene lacks and that have a number of this name, with buttons that put them in.
+  #offersFor(wanted) {
+    const { scene } = this.state;
+    const lacked = [...new Set(named(wanted).map((path) => lackedPart(path, scene)).filter(Boolean))];
+    const isNone = lacked.length === 0 && !this.place.querySelector(".field:not([hidden])");
+    if (isNone) return [node("p", { className: "remark", textContent: "No quantity has this name." })];
+    const isOuter = (path) => lacked.every((other) => !path.startsWith(`${other}.`));
+    return lacked.filter(isOuter).map((path) => {
+      const name = partName(path.replace(/\[\]$/, "").split(".").at(-1));
+      const put = node("button", { type: "button", textContent: `Put ${name} in`, onclick: () => this.#putIn(path) });
+      return node("p", {}, `This saw has no ${name}. `, lacks(this.needs, path, scene) || put);
+    });
   }
 
   #groupAt(path) {
     return this.place.querySelector(`details[data-path="${path}"]`);
   }
 
-  // Shows the field or the group with this path; all of them if it is empty.
+  // Shows the field or the group with this path; all of them if it is empty. The first quantity, which is always shown,
+  // keeps the part.
   reveal(path) {
     this.search.value = "";
-    this.#show(this.#chosen && path.split(/[.[]/)[0]);
+    this.#show(this.#chosen && (path === ORDER[0] ? this.#chosen : path.split(/[.[]/)[0]));
     const place = this.#fields.get(path)?.element ?? this.#groupAt(path);
     for (let group = place?.closest("details"); group; group = group.parentElement.closest("details")) group.open = true;
   }
@@ -110,16 +138,17 @@ export class Form {
 
   // Returns the text of a refusal, in the unit of its field if the form has one.
   inWords({ key, message, told }) {
-    return (this.#fields.has(key) && told) || message;
+    return (this.#fields.has(key?.replace(/\[\d*\]$/, "")) && told) || inForm(message);
   }
 
   // Shows a refusal at its field, and at that of the number that was changed last, and removes earlier ones. Returns whether
   // the form has one of these fields.
   refuse(refusal) {
-    const causes = refusal instanceof Refused ? [refusal.key, this.state.changed] : [];
+    // A number in a list has the field of the list.
+    const causes = refusal instanceof Refused ? [refusal.key?.replace(/\[\d*\]$/, ""), this.state.changed] : [];
     const own = [...this.#fields.values()].filter(({ path }) => causes.includes(path));
     for (const field of this.#fields.values()) if (!field.isUnread) field.refuse(own.includes(field) ? this.inWords(refusal) : "");
-    if (own.length > 0) this.reveal(own[0].path);
+    if (own.length > 0 && !own.some(({ element }) => element.checkVisibility())) this.reveal(own[0].path);
     return own.length > 0;
   }
 
@@ -174,8 +203,8 @@ export class Form {
   }
 
   #group(path, title, description, remark, ...children) {
-    const elsewhere = path === "cut" ? "In this chart only where chart_rpm is given" : "Not in this chart";
-    const use = ELSEWHERE[path] ? `${elsewhere}: see “sawflutter ${ELSEWHERE[path]}”.` : "";
+    const elsewhere = path === "cut" ? "In this chart only if its speed there is given" : "Not in this chart";
+    const use = ELSEWHERE[path] ? `${elsewhere}: see the tab “${ELSEWHERE[path]}”.` : "";
     const group = this.#kept(`${path}:group`, () => node("details", { "data-path": path, open: /^guides\[\d+\]$/.test(path) },
       node("summary", { title: [description, use].filter(Boolean).join(" ") }), node("p", { className: "remark" })));
     const [summary, words] = group.children;
@@ -187,10 +216,11 @@ export class Form {
 
   #objectGroup(schema, path, name, value, isRequired) {
     const isThere = (value ?? null) !== null;
+    const remark = isThere && path.endsWith(".controller") ? lawOf(value) : "";
     const lacking = isThere ? "" : lacks(this.needs, path, this.state.scene);
     const children = isThere ? this.#object(schema, path, value) : [];
     if (!isRequired && !lacking) children.push(this.#switch(path, name, isThere));
-    return this.#group(path, isThere ? name : `${name} (none)`, schema.description, lacking, ...children);
+    return this.#group(path, isThere ? name : `${name} (none)`, schema.description, lacking || remark, ...children);
   }
 
   #switch(path, name, isThere) {

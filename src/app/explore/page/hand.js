@@ -1,4 +1,4 @@
-// Moves and magnifies a panel by hand: the wheel and two fingers magnify it, a drag shifts it, and a tap chooses a point.
+// Moves and magnifies a panel by hand: the wheel with Ctrl or ⌘ and two fingers magnify it, a drag shifts it, and a tap chooses a point.
 
 // Turns of the wheel, in pixels, that halve the range.
 const HALVING_PX = 300;
@@ -11,8 +11,8 @@ export function hand(over, { magnify, shift, tap }) {
   const down = new Map();
   let moved = 0;
   over.addEventListener("wheel", (event) => {
-    // A range that cannot be larger lets the page scroll.
-    if (magnify(2 ** (event.deltaY / HALVING_PX), event.offsetX)) event.preventDefault();
+    // The wheel alone scrolls the page.
+    if ((event.ctrlKey || event.metaKey) && magnify(2 ** (event.deltaY / HALVING_PX), event.offsetX)) event.preventDefault();
   }, { passive: false });
   over.addEventListener("pointerdown", (event) => {
     if (event.button !== 0) return;

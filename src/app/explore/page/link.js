@@ -18,7 +18,7 @@ export async function link(scene) {
 
 // Returns the text of the scene in the address, or null.
 export async function carried() {
-  const found = /^#scene=([\w-]+)$/.exec(location.hash);
+  const found = /^#scene=(.*)$/.exec(location.hash);
   if (!found) return null;
   const packed = Uint8Array.from(atob(found[1].replaceAll("-", "+").replaceAll("_", "/")), (c) => c.charCodeAt(0));
   return new TextDecoder().decode(await through(new DecompressionStream("deflate-raw"), packed));

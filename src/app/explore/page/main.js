@@ -18,6 +18,7 @@ import { Pointed } from "./pointed.js";
 import { Result } from "./result.js";
 import { Ruler } from "./ruler.js";
 import { SceneState, sawOf } from "./scene.js";
+import { sheet } from "./sheet.js";
 import { Tabs } from "./tabs.js";
 import { progress, start, stayConnected } from "./talk.js";
 import { Times } from "./times.js";
@@ -33,14 +34,16 @@ let colours = publish(begun.colours);
 const kept = new Kept(begun.scene);
 
 const state = new SceneState(begun.scene, (scene, { draft, structure, stamp, released }) => {
+  result.begin(draft);
   live.ask(scene, { draft, stamp, released });
   answers.refresh();
-  result.stop();
   if (structure) form.build();
   else form.refresh(draft);
   ruler.refresh();
   blade.draw(scene);
   if (draft) return;
+  endWelcome();
+  blade.isHinting = false;
   pointed.hint();
   tools.refresh();
   files.changed(scene);
@@ -54,7 +57,7 @@ const pointed = new Pointed({
   nameOf: (file) => files.nameOf(file),
 });
 const files = new Files(state, kept, begun, {
-  say, onReplaced: () => pinned.reset(), onChanged: conflict, onBusy: (what) => (what ? waiting.begin(what) : waiting.end()), shown: chartOfScene,
+  say, notify, refusal: () => result.refusal, onReplaced: () => pinned.reset(), onChanged: conflict, onBusy: (what) => (what ? waiting.begin(what) : waiting.end()), shown: chartOfScene,
 });
 const ruler = new Ruler(by("ruler"), state);
 const form = new Form(by("fields"), begun, state, say);
@@ -72,9 +75,9 @@ const tabs = new Tabs(by("tabs"), by("panels"), state, begun, answers, {
   nameOf: (file) => files.nameOf(file),
   colours: () => colours,
 });
-const tools = toolbar({ state, files, kept, pinned, charts, blade, form, tabs, result, select, adding });
+const tools = toolbar({ state, files, kept, pinned, charts, blade, form, tabs, result, select, adding, endWelcome });
 const live = new Live(result, (busy, draft) => (busy ? waiting.begin(draft ? "draft" : "computing") : waiting.end()));
-const waiting = new Waiting(by("waiting"), { onStop, onAgain: () => live.again(state.scene), ask: progress });
+const waiting = new Waiting(by("waiting"), { onStop, onAgain: again, ask: progress });
 
 // Read by the browser test: times, and the state of the page.
 const seen = Object.assign(times, {
@@ -125,6 +128,18 @@ function select(path) {
   form.select(path);
 }
 
+function again() {
+  result.begin(false);
+  live.again(state.scene);
+}
+
+// Removes the cards of the first visit, and gives their room to the chart.
+function endWelcome() {
+  if (by("welcome").hidden) return;
+  by("welcome").hidden = true;
+  charts.resize();
+}
+
 // Offers to load or to overwrite the file of the saw, which another program has changed.
 function conflict(name) {
   by("conflict").hidden = false;
@@ -141,11 +156,17 @@ function say(text) {
   write(by("fault"), text);
 }
 
+// Shows a message that stays until it is closed.
+function notify(text) {
+  by("notice").hidden = text === "";
+  write(by("notice").firstElementChild, text);
+}
+
 function onStop() {
   live.stop();
   files.stop();
   if (seen.settled()) return false;
-  result.end();
+  result.halt();
   say(by("outdated").textContent);
   return true;
 }
@@ -161,17 +182,20 @@ function recolour(printed = onPaper) {
 }
 
 matchMedia("(prefers-color-scheme: dark)").addEventListener("change", () => recolour());
-addEventListener("beforeprint", () => recolour(true));
+addEventListener("beforeprint", () => {
+  sheet(by("printed"), state.scene, begun.version);
+  recolour(true);
+});
 addEventListener("afterprint", () => recolour(false));
 // The blade that moves makes way for the one whose parts can be dragged.
 by("drawing").addEventListener("pointerenter", () => charts.point(null));
-dock(by("campbell"));
+dock(by("answer"), by("campbell"));
 stayConnected((lost) => {
   // A program that was started again does not have the earlier charts.
   if (!lost && !by("lost").hidden) {
     for (const place of document.querySelectorAll("#fault, .fault")) if (place.textContent === LOST) place.textContent = "";
     form.readAgain();
-    live.again(state.scene);
+    again();
   }
   by("lost").hidden = !lost;
 });
@@ -184,6 +208,7 @@ document.body.classList.remove("loading");
 blade.draw(state.scene);
 pointed.hint();
 if (!(await files.restore(by("restored"))) && !begun.file) {
-  blade.isHinting = welcome(by("welcome"), begun.examples, { choose: (example) => files.choose(example), open: () => by("open").click() });
+  blade.isHinting = welcome(by("welcome"), begun.examples, { end: endWelcome, choose: (example) => files.choose(example), open: () => by("open").click() });
+  charts.resize();
 }
 if (!live.asked) live.ask(state.scene, { draft: false });

@@ -292,7 +292,7 @@ export class Painter {
       if (!free) continue;
       taken.push(free);
       // A translucent background keeps the label legible where thin bands pass behind it.
-      this.#onPaper(band.label, band.colour, free.left, this.box.top + height * (0.6 + free.row) * this.scale, { height: 12, opacity: 0.75 });
+      this.#onPaper(band.label, band.colour, free.left, this.box.top + height * (0.6 + free.row) * this.scale, { height: 12, opacity: 0.92 });
     }
   }
 

@@ -2,7 +2,8 @@
 // not see the chart.
 
 import { explain, node } from "./dom.js";
-import { unitOf } from "./fields.js";
+import { keyOf, unitOf, unitOfField } from "./fields.js";
+import { inForm } from "./phrases.js";
 import { shown } from "./words.js";
 
 // Returns the words of a value and their unit; for a number whose unit is another one in the form, three digits in that
@@ -20,10 +21,11 @@ export function told(value, before = null) {
 }
 
 // Shows the answer of the program in few words, and the numbers that decide it.
-export function verdict(place, { answer, word, line }) {
-  place.className = answer ?? "";
-  if (place.textContent === `${word} ${line}`) return;
-  place.replaceChildren(node("strong", {}, node("span", { textContent: word })), " ", node("span", { textContent: line }));
+export function verdict(place, { answer = null, word, line, isAhead = false }) {
+  place.className = [answer, isAhead && "ahead"].filter(Boolean).join(" ");
+  const words = inForm(line);
+  if (place.textContent === `${word} ${words}`) return;
+  place.replaceChildren(node("strong", {}, node("span", { textContent: word })), " ", node("span", { textContent: words }));
   explain(place);
 }
 
@@ -39,7 +41,25 @@ export function facts(place, now, before) {
   }));
 }
 
-function table({ title, columns, rows }) {
+// Returns a table in the units of the form. A column that is named by the key of a number has numbers in the unit of scenes.
+function ofForm({ title, columns, rows }) {
+  const units = columns.map(({ name, unit }, k) => {
+    const path = rows.map(({ cells }) => cells[k]?.unit_of).find(Boolean);
+    if (path) return { name, unit: unitOf(path).unit, told: inFormUnit };
+    const field = unit === "" ? keyOf(name) : undefined;
+    if (!field) return { name: inForm(name), unit, told: ({ words }) => ({ words: inForm(words) }) };
+    const own = unitOfField(field);
+    return { name: field.label, unit: own.unit, told: ({ words }) => ({ words: Number.isNaN(Number(words)) ? words : shown(Number(words) * own.scale, 4) }) };
+  });
+  return {
+    title: inForm(title),
+    columns: columns.map((column, k) => ({ ...column, name: units[k].name, unit: units[k].unit })),
+    rows: rows.map(({ cells, remark }) => ({ cells: cells.map((one, k) => units[k]?.told(one) ?? one), remark: remark && inForm(remark) })),
+  };
+}
+
+function table(given) {
+  const { title, columns, rows } = ofForm(given);
   const cell = (tag, span) => (text) => node(tag, { textContent: text, ...span, ...(tag === "th" ? { scope: "col" } : {}) });
   const heads = columns.map(({ group, name, unit }) => `${group} ${name} ${unit}`.trim().replace("  ", " "));
   const shownRow = ({ cells, remark }) => [
@@ -54,12 +74,12 @@ function table({ title, columns, rows }) {
 }
 
 const BLOCKS = {
-  heading: (text) => node("p", { className: "remark", textContent: text }),
-  headline: (text) => node("p", {}, node("strong", { textContent: text })),
-  reason: (text) => node("p", { textContent: text }),
-  sentence: (text) => node("p", { textContent: text }),
-  remark: ({ word, text }) => node("p", { className: "warning", textContent: `${word}: ${text}` }),
-  facts: ({ title, facts: all }) => node("dl", { className: "numbers-of-answer", "aria-label": title }, ...all.map(({ name, value, before, remark }) => term(name, `${told(value, before)} ${remark}`.trimEnd()))),
+  heading: (text) => node("p", { className: "remark", textContent: inForm(text) }),
+  headline: (text) => node("p", {}, node("strong", { textContent: inForm(text) })),
+  reason: (text) => node("p", { textContent: inForm(text) }),
+  sentence: (text) => node("p", { textContent: inForm(text) }),
+  remark: ({ word, text }) => node("p", { className: "warning", textContent: inForm(`${word}: ${text}`) }),
+  facts: ({ title, facts: all }) => node("dl", { className: "numbers-of-answer", "aria-label": title }, ...all.map(({ name, value, before, remark }) => term(inForm(name), inForm(`${told(value, before)} ${remark}`.trimEnd())))),
   table,
 };
 

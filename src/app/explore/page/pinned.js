@@ -56,7 +56,7 @@ export class Pinned {
 
   // Returns a name that says in what a saw differs from the one that was opened.
   #nameOf(scene) {
-    const paths = differences(this.#opened, scene).filter((path) => !/^(name|notes)/.test(path));
+    const paths = differences(this.#opened, scene).filter((path) => !/^(name|notes|accuracy|tolerance)/.test(path));
     const words = paths.slice(0, MOST_NAMED).map((path) => nameOf(path, get(scene, path)));
     if (paths.length > MOST_NAMED) words.push("…");
     return words.join(", ") || scene.name || "as opened";

@@ -4,6 +4,7 @@
 import { LOST, PLACE } from "./backend.js";
 import { by, node } from "./dom.js";
 import { facts, outline, verdict } from "./outline.js";
+import { inForm } from "./phrases.js";
 import { sawOf } from "./scene.js";
 import { Refused, influence } from "./talk.js";
 import { shown } from "./words.js";
@@ -11,11 +12,13 @@ import { shown } from "./words.js";
 // A chart of an earlier scene is marked if it stays for longer than this.
 const BLINK_MS = 400;
 
-const list = (id, sentences) => by(id).replaceChildren(...sentences.map((textContent) => node("li", { textContent })));
+const list = (id, sentences) => by(id).replaceChildren(...sentences.map((text) => node("li", { textContent: inForm(text) })));
 
 export class Result {
   // Chart that was shown last, as the program sends it, or null.
   latest = null;
+  // Why the present scene is refused; empty if it is not.
+  refusal = "";
   #weighing = null;
 
   // `page` has the parts of the page that show the result, and `say(text)`, which shows an error that belongs to no field.
@@ -25,15 +28,14 @@ export class Result {
   }
 
   show(chart, request) {
-    const { answers, blade, charts, form, pinned, pointed, say, state, times } = this.page;
+    const { answers, blade, charts, pinned, pointed, state, times } = this.page;
     const read = performance.now();
     this.latest = chart;
     answers.show(by("result"), (scene) => sawOf(scene) === request.saw, BLINK_MS);
-    pinned.begin(chart);
-    form.refuse(null);
-    say("");
+    if (!request.draft) pinned.begin(chart);
+    this.#accept();
     // The axes are kept until the chart after the release.
-    pinned.hold(request.draft || state.isMoving);
+    pinned.hold((request.draft && !request.isFirst) || state.isMoving);
     this.compare();
     if (!request.draft) this.#weigh(chart, request.saw);
     blade.draw(state.scene, null);
@@ -53,20 +55,50 @@ export class Result {
     });
     facts(by("facts"), now, pinned.facts);
     ruler.show(told.ruler, charts.items);
-    // The numbers that decide the same answer remain until those of the chart.
-    if (found.verdict && found.verdict.answer !== told.verdict.answer) verdict(by("verdict"), found.verdict);
+    if (found.verdict) verdict(by("verdict"), { ...found.verdict, isAhead: true });
     times.early(request, found);
   }
 
   refuse(error, request) {
     const { blade, form, say, state } = this.page;
     const answers = error instanceof Refused;
-    if (!answers && request.draft) return;
-    const told = form.refuse(error);
+    if (!answers && request.draft && !request.isFirst) return;
+    const isAtField = form.refuse(error);
     if (answers) list("unusual", error.unusual);
-    say(told ? "" : answers ? error.message : LOST);
+    const reason = answers ? form.inWords(error) : LOST;
+    say(isAtField ? "" : reason);
+    this.refusal = answers ? reason : "";
+    this.#say("Not computed", reason);
     this.end();
     blade.draw(state.scene, error.key ?? null);
+  }
+
+  // Cancels what is computed from the chart of an earlier scene. Unless the scene keeps changing, its refusal and early
+  // results are those of an earlier one, too.
+  begin(draft) {
+    this.#weighing?.abort();
+    if (draft) return;
+    this.#accept();
+    for (const ahead of by("result").querySelectorAll(".ahead")) ahead.classList.remove("ahead");
+  }
+
+  // Removes the refusal of an earlier scene.
+  #accept() {
+    this.refusal = "";
+    this.#say("Computing …");
+    this.page.form.refuse(null);
+    this.page.say("");
+  }
+
+  // Says that the chart of the scene will not come because the user has stopped it.
+  halt() {
+    this.end();
+    this.#say("Not computed", "stopped");
+  }
+
+  // The words in the place of the verdict while the chart is one of an earlier scene.
+  #say(word, line = "") {
+    verdict(by("instead"), { word, line });
   }
 
   // Shows the latest chart, without early results of one that will not come.
@@ -81,14 +113,9 @@ export class Result {
     this.#tell();
   }
 
-  // Cancels what is computed from the chart of an earlier scene.
-  stop() {
-    this.#weighing?.abort();
-  }
-
   // Requests the influence of the numbers of the form on the speeds of a chart, and shows it in the form.
   async #weigh(chart, saw) {
-    this.stop();
+    this.#weighing?.abort();
     const { signal } = (this.#weighing = new AbortController());
     try {
       const found = await influence(chart.chart, signal);

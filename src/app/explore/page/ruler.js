@@ -19,7 +19,9 @@ export class Ruler {
       oninput: ({ timeStamp: stamp }) => state.set(PATH, Number(this.handle.value), { draft: true, stamp, run: PATH }),
       onchange: (event) => state.settle(event.timeStamp),
     });
+    this.key = node("p", { className: "key" });
     place.append(this.marks, this.handle);
+    place.after(this.key);
     new ResizeObserver(() => this.#again()).observe(place);
   }
 
@@ -54,6 +56,10 @@ export class Ruler {
     const usable = window_rpm === null ? [] : [mark("window", ...window_rpm, window)];
     const usual = limit_rpm === null || limit_rpm > to_rpm ? [] : [mark("limit", limit_rpm, limit_rpm, "", limit)];
     this.marks.replaceChildren(...usable, ...bands, ...critical, ...usual);
+    const kinds = [...new Set(items.filter(({ item }) => item === "band").map(({ colour }) => colour))];
+    const entries = [["window", window_rpm && `stable from ${window_rpm.map(Math.round).join(" to ")} rpm`], ...kinds.map((kind) => [kind, kind]), ["critical", critical.length > 0 && "critical speed"],
+      ["limit", usual.length > 0 && `${limit} of the first`]];
+    this.key.replaceChildren(...entries.filter(([, words]) => words).map(([className, textContent]) => node("span", { className, textContent })));
     this.handle.max = String(Math.ceil(to_rpm));
     this.refresh();
   }

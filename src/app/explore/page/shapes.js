@@ -47,13 +47,36 @@ export function outline(long, wide, shape) {
   return shape === "round" ? ellipse(h, v) : `M${-h} ${-v}H${h}V${v}H${-h}Z`;
 }
 
+// Returns the path of the signs of what holds or damps a pad, where `u` is the unit of the drawing: a spring at its outer edge
+// for an arm, waves along its inner edge for a film, and a box at a corner for a controller.
+export function signs({ arm, film, controller }, long, wide, u) {
+  const [h, v] = [long / 2, wide / 2];
+  const spring = [[0, 0], [3, 0], [5, -4], [8, 4], [11, -4], [14, 4], [16, 0], [19, 0]].map(([x, y]) => `${h + x * u} ${y * u}`).join("L");
+  const wave = Array.from({ length: 4 }, (_, k) => `q${(k % 2 ? 4 : -4) * u} ${v / 4} 0 ${v / 2}`).join("");
+  const box = `M${h - 4 * u} ${v - 4 * u}h${8 * u}v${8 * u}h${-8 * u}ZM${h - 2 * u} ${v}h${4 * u}`;
+  return [arm && `M${spring}`, film && `M${-h - 4 * u} ${-v}${wave}`, controller && box].filter(Boolean).join("");
+}
+
+// Returns whether a part of a pad is beside the blade, at the bore or beyond the rim.
+export function overhangs({ radius_m, radial_length_m, tangential_length_m, shape }, { inner_diameter_m, outer_diameter_m }) {
+  const half = 0.5 * radial_length_m;
+  const outermost = shape === "round" ? radius_m + half : Math.hypot(radius_m + half, 0.5 * tangential_length_m);
+  return outermost > 0.5 * outer_diameter_m || radius_m - half < 0.5 * inner_diameter_m;
+}
+
+// Path of everything in the drawing that is not the blade.
+export function besideBlade({ inner_diameter_m, outer_diameter_m }, reach) {
+  return `M${-reach} ${-reach}H${reach}V${reach}H${-reach}Z${circle(0.5 * outer_diameter_m)}${circle(0.5 * inner_diameter_m)}`;
+}
+
 // Returns a small picture of a saw.
 export function thumbnail(scene) {
   const reach = reachOf(scene);
   const least = (length) => Math.max(length, 0.1 * reach);
   const pads = (scene.guides ?? []).map((pad) => {
-    const d = outline(least(pad.radial_length_m), least(pad.tangential_length_m), pad.shape);
-    return drawn("g", { class: "pad" }, drawn("path", { class: "body", d, transform: atPad(pad) }));
+    const sides = [pad.radial_length_m, pad.tangential_length_m].map(least);
+    const [body, sign] = [outline(sides[0], sides[1], pad.shape), signs(pad, sides[0], sides[1], 0.014 * reach)];
+    return drawn("g", { class: "pad", transform: atPad(pad) }, drawn("path", { class: "body", d: body }), drawn("path", { class: "sign", d: sign }));
   });
   return drawn("svg", { class: "thumbnail", "aria-hidden": "true", viewBox: viewOf(reach) }, ...ground(scene), ...pads);
 }

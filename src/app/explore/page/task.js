@@ -21,7 +21,7 @@ const TASKS = [
   { name: "runup", isBegun: true, title: "Run-up", part: "runup", what: "The blade run up under a lateral force: deflection at the probe, and what each band of instability adds." },
   { name: "washboard", isBegun: true, title: "Washboard", part: "cut.washboarding", what: "Whether a vibration grows from tooth to tooth on the surface that the one before has left, over speed and cutting stiffness." },
   { name: "response", isBegun: true, title: "Response", what: "Amplitude over the speed at the probe, for the causes in the scene: its side force, constant or oscillating, run-out, flatness, imbalance. Without any, a side force of 1 N." },
-  { name: "gap", isBegun: true, title: "Gap", what: "Guides with a gap: critical speeds and flutter over the amplitude, and the deflection at the cut over gap and side force." },
+  { name: "gap", isBegun: true, title: "Gap", what: "Guides with a gap: critical speeds and flutter over the amplitude, and the deflection at the cut over gap and side force.", remedy: ["guides[0].gap_m", "Let pad 1 lift off"] },
   { name: "fit", title: "Fit", what: "Radius and stiffness of every guide from the measured frequencies of the scene; drop a table (rpm, then frequencies in Hz) on the page.", took: "Take the fitted saw" },
   { name: "place", title: "Place", what: "Radius, angle and stiffness of the first guide for the largest flutter speed.", took: "Take the best saw" },
   { name: "size", title: "Size", what: "How thick, how stiff, how fast? The values of a number with which the saw keeps its limits at its operating speed.", took: "Take this saw" },
@@ -81,19 +81,25 @@ export class Task {
 
   // Says what the scene lacks for the task, and returns whether it lacks nothing.
   #offer(scene) {
-    const { name, part } = this.entry;
+    const { name, part, remedy } = this.entry;
     const isPartMissing = part !== undefined && !get(scene, part);
     const missing = part === undefined ? lacks(this.needs, name, scene) : isPartMissing ? lacks(this.needs, part, scene) : "";
     const hadFocus = this.missing.contains(document.activeElement);
     this.missing.replaceChildren(missing);
     if (isPartMissing && missing === "") {
       const words = partName(part.split(".").at(-1));
-      const add = () => putIn(this.state, part).catch((error) => (this.fault.textContent = this.inWords(error)));
-      this.missing.append(`The scene has no ${words} yet. `, button(`Put ${words} in`, add));
+      this.missing.append(`The scene has no ${words} yet. `, button(`Put ${words} in`, () => this.#putIn(part)));
+    }
+    if (missing !== "" && remedy && scene.guides?.length > 0) {
+      this.missing.append(" ", button(remedy[1], () => this.#putIn(remedy[0])));
     }
     this.start.disabled = isPartMissing || missing !== "";
     if (hadFocus) (this.missing.querySelector("button") ?? this.start).focus();
     return !this.start.disabled;
+  }
+
+  #putIn(part) {
+    return putIn(this.state, part).catch((error) => (this.fault.textContent = this.inWords(error)));
   }
 
   // Computes the answer, and stops after `most_ms`.

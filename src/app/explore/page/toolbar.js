@@ -30,8 +30,8 @@ function menu(place) {
 }
 
 // Connects the buttons to the parts of the page. `select(path)` and `adding(on)` select a part and let the next click add a
-// pad. Returns `refresh()`, which updates the buttons, and `measure()`, which takes over the unit of the last visit.
-export function toolbar({ state, files, kept, pinned, charts, blade, form, tabs, result, select, adding }) {
+// pad, and `endWelcome()` removes the cards of the first visit. Returns `refresh()`, which updates the buttons, and `measure()`, which takes over the unit of the last visit.
+export function toolbar({ state, files, kept, pinned, charts, blade, form, tabs, result, select, adding, endWelcome }) {
   function refresh() {
     const name = state.scene.name || "unnamed saw";
     write(by("saw-name"), name);
@@ -43,7 +43,6 @@ export function toolbar({ state, files, kept, pinned, charts, blade, form, tabs,
     if (focused.disabled) [by("undo"), by("redo")].find((button) => !button.disabled)?.focus();
     const source = state.scene.measured?.source;
     by("points").hidden = source === undefined;
-    by("source").textContent = source ?? "";
     by("source").title = source ?? "";
     const { target } = files;
     by("write").hidden = target === null;
@@ -63,6 +62,7 @@ export function toolbar({ state, files, kept, pinned, charts, blade, form, tabs,
     useInches(on);
     form.build();
     tabs.refresh();
+    if (result.latest) result.compare();
     try {
       localStorage.setItem(INCHES, on ? "1" : "");
     } catch {
@@ -70,6 +70,8 @@ export function toolbar({ state, files, kept, pinned, charts, blade, form, tabs,
     }
   }
 
+  // The menu that opened the dialog is closed by then, and could not take the focus.
+  by("examples").addEventListener("close", () => first(".menu summary").focus());
   by("fields").addEventListener("focusin", (event) => select(form.partOf(event.target)));
   addEventListener("keydown", (event) => event.key === "Escape" && adding(false));
   const decide = (how) => async () => {
@@ -97,6 +99,8 @@ export function toolbar({ state, files, kept, pinned, charts, blade, form, tabs,
     overwrite: decide(() => files.write()),
     load: decide(() => files.load()),
     print: () => print(),
+    begin: endWelcome,
+    dismiss: () => (by("notice").hidden = true),
   };
   for (const [id, then] of Object.entries(clicks)) by(id).addEventListener("click", then);
   by("pairs").addEventListener("change", (event) => (state.pairs = event.target.value));
