@@ -118,10 +118,8 @@ pub fn json(path: &str, value: &Bound<'_, PyAny>) -> PyResult<Value> {
         json(path, &magnitude(path, value)?)
     } else if value.hasattr("tolist")? {
         // NumPy and pandas give one number also as an array of one element.
-        let size: Option<usize> = value
-            .getattr("size")
-            .and_then(|size| Ok(size.extract()?))
-            .ok();
+        let size = value.getattr("size").and_then(|size| size.extract());
+        let size: Option<usize> = size.ok();
         let is_number = size == Some(1) && Quantity::of(path).is_some();
         json(
             path,
