@@ -18,6 +18,7 @@ import numpy as np
 
 from . import _native
 from ._command import answered, in_options, png, wrapped
+from ._progress import Callback
 from .errors import ArgumentError, InputError
 from .margins import MeasuredMargin
 from .scene import Scene
@@ -65,7 +66,7 @@ def _table(titles: list[str], columns: list[Any]) -> str:
     return "\n".join([",".join(titles), *rows, ""])
 
 
-def _lines() -> Any:
+def _lines() -> Callback:
     """Prints lines of progress at intervals."""
     last = [time.monotonic()]
 

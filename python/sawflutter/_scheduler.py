@@ -15,7 +15,7 @@ import time
 from pathlib import Path
 from typing import Any
 
-from ._progress import reporting
+from ._progress import Callback, reporting
 from .errors import AnalysisError, InputError
 from .scene import Scene
 from .study import Study
@@ -58,14 +58,14 @@ def _workers(client: Any) -> str:
     return f"{len(threads)} workers with {sum(threads.values())} threads"
 
 
-def _lines() -> Any:
+def _lines() -> Callback:
     """Prints lines of progress at intervals."""
     last = [time.monotonic() - APART]
 
-    def told(done: int, of: int) -> None:
+    def told(done: int, of: int, what: str) -> None:
         if done == of or time.monotonic() - last[0] > APART:
             last[0] = time.monotonic()
-            _tell(f"{done} of {of} saws")
+            _tell(f"{done} of {of} {what}")
 
     return told
 
