@@ -12,6 +12,7 @@ import queue
 import sys
 import time
 from collections import deque
+from collections.abc import Iterable
 from concurrent.futures import BrokenExecutor, CancelledError
 from functools import lru_cache
 from importlib import import_module
@@ -117,7 +118,12 @@ class Place:
         return None
 
     def look(self) -> None:
-        """Raises AnalysisError if no more tasks can run here."""
+        """Raises BrokenExecutor if no more tasks can run here."""
+
+    def cancel(self, tasks: Iterable[Any]) -> None:
+        """Gives up tasks that are under way."""
+        for task in tasks:
+            task.cancel()
 
 
 class Cluster(Place):
@@ -129,11 +135,22 @@ class Cluster(Place):
             raise TypeError("the client is asynchronous; give one that is not: Client(address)")
         super().__init__(client, text, pure=False)
 
+    def submit(self, saws: Range) -> Any:
+        try:
+            return super().submit(saws)
+        except Exception:
+            # A client that has lost its scheduler closes itself at any moment.
+            self.look()
+            raise
+
     def workers(self) -> int:
         try:
             threads = self.executor.nthreads()
         except OSError as error:
             raise BrokenExecutor(f"the connection to the scheduler is closed: {error}") from error
+        except Exception:
+            self.look()
+            raise
         return max(1, int(sum(threads.values())))
 
     def check(self) -> None:
@@ -170,7 +187,12 @@ class Cluster(Place):
 
     def look(self) -> None:
         if self.executor.status not in ("running", "connecting"):
-            raise AnalysisError(f"the scheduler is lost: the client is {self.executor.status}")
+            raise BrokenExecutor(f"the scheduler is lost: the client is {self.executor.status}")
+
+    def cancel(self, tasks: Iterable[Any]) -> None:
+        # A closed client has cancelled its tasks, and refuses to do so again.
+        if self.executor.status == "running":
+            super().cancel(tasks)
 
 
 def place(executor: Any, text: Text) -> Place:
@@ -215,8 +237,7 @@ class Run:
                 "and it goes on"
             ) from error
         finally:
-            for future in self.under_way:
-                future.cancel()
+            self.place.cancel(self.under_way)
 
     def _run(self, told: Any) -> None:
         workers, looked = self.place.workers(), time.monotonic()

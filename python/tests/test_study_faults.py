@@ -307,6 +307,17 @@ def test_differing_processors_are_in_the_report(study: sf.Study, tmp_path: Path)
     assert not few.run(tmp_path / "alone").processors
 
 
+def test_a_closed_client_says_how_to_go_on(study: sf.Study, tmp_path: Path) -> None:
+    with cluster(tmp_path, 1) as (_, client):
+
+        def close(done: int, of: int, phase: str) -> None:
+            client.close()
+
+        with pytest.raises(sf.AnalysisError, match="run the study again"):
+            study.run(tmp_path / "out", executor=client, progress=close)
+    assert 0 < len(logged(tmp_path / "out")) < SAWS
+
+
 def test_a_broken_pool_says_how_to_go_on(
     study: sf.Study, alone: dict[str, bytes], tmp_path: Path
 ) -> None:
