@@ -22,22 +22,22 @@ impl ModesAtRest {
     /// # Errors
     /// [`SpectrumError`] when an eigenproblem fails.
     pub fn new(model: &SpectralModel, range: SpeedRange) -> Result<Self, SpectrumError> {
-        if range.from_rad_per_s == 0.0 {
-            let (oscillating, overdamped) = listed(model)?;
-            return Ok(ModesAtRest {
-                own: None,
-                oscillating,
-                overdamped,
-            });
-        }
-        let rest = SpeedRange::new(0.0, SPLITTING * frequency_scale(&model.plate));
-        let (plate, critical) = (model.plate.clone(), model.critical.clone());
-        let own = SpectralModel::with_critical(plate, critical, rest, Strategy::Reduced)?;
-        let (oscillating, overdamped) = listed(&own)?;
+        let own = if range.from_rad_per_s == 0.0 {
+            None
+        } else {
+            let rest = SpeedRange::new(0.0, SPLITTING * frequency_scale(&model.plate));
+            let (plate, critical) = (model.plate.clone(), model.critical.clone());
+            let own = SpectralModel::with_critical(plate, critical, rest, Strategy::Reduced)?;
+            Some(own)
+        };
+        let of_rest = own.as_ref().unwrap_or(model);
+        let modes = of_rest.describe(0.0, of_rest.modes(0.0)?).into_iter();
+        let (overdamped, oscillating): (Vec<_>, Vec<_>) =
+            modes.partition(|mode| mode.mode.is_overdamped());
         Ok(ModesAtRest {
-            own: Some(own),
+            own,
             oscillating,
-            overdamped,
+            overdamped: overdamped.len(),
         })
     }
 
@@ -45,12 +45,4 @@ impl ModesAtRest {
     pub fn model<'a>(&'a self, of_sweep: &'a SpectralModel) -> &'a SpectralModel {
         self.own.as_ref().unwrap_or(of_sweep)
     }
-}
-
-/// Oscillating modes of a model at rest, and the number of the others.
-fn listed(model: &SpectralModel) -> Result<(Vec<DescribedMode>, usize), SpectrumError> {
-    let modes = model.describe(0.0, model.modes(0.0)?).into_iter();
-    let (overdamped, oscillating): (Vec<_>, Vec<_>) =
-        modes.partition(|mode| mode.mode.is_overdamped());
-    Ok((oscillating, overdamped.len()))
 }

@@ -4,6 +4,13 @@ use super::report::{Resonance, ResponseLine, SteadyState};
 use crate::model::scene::Scene;
 use crate::page::text::{counted, shown};
 
+const NO_STIFFNESS: &str =
+    "the static stiffness is zero there, so that any side force deflects the blade without bound";
+const NO_DAMPING: &str =
+    "nothing dissipates the energy of the motion there, so that amplitudes grow without bound";
+const BEYOND_MODEL: &str = "amplitudes exceed five thicknesses of the blade there";
+const UNSTABLE: &str = "the saw is unstable there";
+
 /// Remarks of the chart, and on the lines; `assumed_force_n` is the side force of a scene without an excitation.
 pub(super) fn warnings(
     scene: &Scene,
@@ -27,39 +34,26 @@ pub(super) fn warnings(
             shown(1e3 * thickness)
         ));
     }
-    let resonances = || lines.iter().flat_map(|line| &line.resonances);
-    let unbounded = |at: &&Resonance| at.steady_state == SteadyState::Unbounded;
-    let is_static = |at: &&Resonance| at.frequency_hz == 0.0;
-    let counts = [
-        (
-            resonances().filter(unbounded).filter(is_static).count(),
-            "the static stiffness is zero there, so that any side force deflects the blade without bound",
-        ),
-        (
-            resonances()
-                .filter(unbounded)
-                .filter(|at| !is_static(at))
-                .count(),
-            "nothing dissipates the energy of the motion there, so that amplitudes grow without bound",
-        ),
-        (
-            resonances()
-                .filter(|at| at.steady_state == SteadyState::BeyondModel)
-                .count(),
-            "amplitudes exceed five thicknesses of the blade there",
-        ),
-        (
-            resonances()
-                .filter(|at| at.steady_state == SteadyState::None)
-                .count(),
-            "the saw is unstable there",
-        ),
-    ];
-    for (count, why) in counts.into_iter().filter(|(count, _)| *count > 0) {
-        warnings.push(format!(
-            "at {} no amplitude is given: {why}",
-            counted(count, ["resonance", "resonances"])
-        ));
+    for why in [NO_STIFFNESS, NO_DAMPING, BEYOND_MODEL, UNSTABLE] {
+        let all = lines.iter().flat_map(|line| &line.resonances);
+        let count = all.filter(|at| why_unknown(at) == Some(why)).count();
+        if count > 0 {
+            warnings.push(format!(
+                "at {} no amplitude is given: {why}",
+                counted(count, ["resonance", "resonances"])
+            ));
+        }
     }
     warnings
+}
+
+/// The reason for which a resonance has no amplitude.
+fn why_unknown(at: &Resonance) -> Option<&'static str> {
+    match at.steady_state {
+        SteadyState::Bounded => None,
+        SteadyState::Unbounded if at.frequency_hz == 0.0 => Some(NO_STIFFNESS),
+        SteadyState::Unbounded => Some(NO_DAMPING),
+        SteadyState::BeyondModel => Some(BEYOND_MODEL),
+        SteadyState::None => Some(UNSTABLE),
+    }
 }

@@ -172,18 +172,15 @@ impl Writing<'_> {
 /// Creates a temporary file in a folder, or the folder with its missing parents inside a temporary one. Another run can
 /// create the same folder at any moment, so that nothing with its own name is created only to be removed.
 fn tried(path: &Path) -> std::io::Result<()> {
-    let is_there = |folder: &&Path| folder.as_os_str().is_empty() || folder.exists();
-    let existing = path.ancestors().find(is_there).unwrap_or(Path::new(""));
-    let missing = path.strip_prefix(existing).unwrap_or(path);
+    // The present folder is the outermost of a relative path.
+    let path = Path::new(".").join(path);
+    let existing = path.ancestors().find(|folder| folder.exists());
+    let existing = existing.unwrap_or(&path);
+    let missing = path.strip_prefix(existing).unwrap_or(&path);
     if missing.as_os_str().is_empty() {
-        tempfile::NamedTempFile::new_in(path)?;
+        tempfile::NamedTempFile::new_in(existing)?;
         return Ok(());
     }
-    let existing = if existing.as_os_str().is_empty() {
-        Path::new(".")
-    } else {
-        existing
-    };
     let beside = tempfile::Builder::new()
         .prefix(STAGED)
         .tempdir_in(existing)?;

@@ -8,7 +8,7 @@ use std::time::Instant;
 
 use axum::Router;
 use axum::body::Body;
-use axum::extract::{DefaultBodyLimit, Path, State};
+use axum::extract::{Path, State};
 use axum::http::{HeaderMap, StatusCode, Uri, header};
 use axum::middleware::from_fn_with_state;
 use axum::response::{IntoResponse, Response};
@@ -25,7 +25,7 @@ use super::opened_file::{OpenedFile, Unsaved};
 use super::page;
 use super::pages::Pages;
 use super::refusal::Refusal;
-use crate::model::scene::{MAX_SCENE_BYTES, Scene};
+use crate::model::scene::Scene;
 use crate::modes::SpectrumError;
 
 /// Options of the server.
@@ -159,7 +159,6 @@ fn router(server: Server, hosts: OwnHosts) -> Router {
         .route("/leave", post(leave))
         .route("/jobs", get(jobs))
         .route("/progress", get(progress))
-        .layer(DefaultBodyLimit::max(MAX_SCENE_BYTES as usize))
         .layer(from_fn_with_state(hosts, guard))
         .with_state(server)
 }
